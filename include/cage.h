@@ -1,0 +1,190 @@
+/* cage.h: prove that a rigid object made of balls cannot leave, or find its way out.
+ *
+ * The object is a union of balls in its own frame, the obstacles a union of balls in the world, in
+ * the plane (dim 2) or in space (dim 3; proofs: plane only in this version). Every number is an integer: lengths are
+ * in grid units of the caller's choice, rotations are integer quaternions. A pose (x, R) collides when
+ * some object ball and some obstacle ball overlap, |x + R y - X| < r + R; touching is allowed.
+ *
+ * Every verdict but UNDEFINED is a theorem about the balls given. Method: Varava, Carvalho, Pokorny,
+ * Kragic, "Caging and Path Non-Existence: a Deterministic Sampling-Based Verification Algorithm",
+ * ISRR 2017; where libcage differs, the source says so.
+ *
+ * The library takes all memory from the caller, calls nothing but memcpy, memset and memmove, keeps no state
+ * between calls outside that memory, and gives the same bytes on every machine. Functions returning
+ * int32_t give a negative CAGE_ERROR_... when they fail; a failed call changes nothing but scratch. */
+#ifndef CAGE_H
+#define CAGE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define CAGE_VERSION "0.1.0"
+#define CAGE_ABI 1 /* changes whenever a struct or a signature below does */
+
+/* Every scene must fit: max |X| + R over the obstacles plus max 3 |y| + r over the object (|.| the
+ * Euclidean norm, y from the pivot) plus 16, and every coordinate of a pose and of its pivot, at most CAGE_REACH. */
+#define CAGE_REACH_2D 178956970 /* 2^29 / 3 */
+#define CAGE_REACH_3D 5592405   /* 2^24 / 3 */
+
+/* Quaternion entries of a pose are at most this in magnitude. */
+#define CAGE_QUATERNION_2D (1 << 30)
+#define CAGE_QUATERNION_3D (1 << 24)
+
+/* The finest level of cells: the plane is cut into 2 * 2^level cells of rotations. */
+#define CAGE_LEVEL_MAX_2D 14
+
+/* ---- errors ------------------------------------------------------------------------------------- */
+#define CAGE_OK 0
+#define CAGE_ERROR_ARGUMENT (-1)  /* a null pointer, a negative count, an unknown constant */
+#define CAGE_ERROR_DIMENSION (-2) /* dim is not supported, or z is not 0 in the plane */
+#define CAGE_ERROR_RANGE (-3)     /* the scene or a pose does not fit CAGE_REACH */
+#define CAGE_ERROR_RADIUS (-4)    /* a negative radius */
+#define CAGE_ERROR_ROTATION (-5)  /* a quaternion of zero, too large, or not about z in the plane */
+#define CAGE_ERROR_MEMORY (-6)    /* the block is too small: cage_result.needed_bytes says for how much */
+
+/* ---- verdicts ----------------------------------------------------------------------------------- */
+#define CAGE_UNDEFINED 0    /* a limit was reached first, or the work is not finished: see reason */
+#define CAGE_CAGED 1        /* proved: no path leads from the start to arbitrarily far away */
+#define CAGE_DISCONNECTED 2 /* proved: no path joins start and goal */
+#define CAGE_FREE 3         /* proved, by a path, that the object can leave */
+#define CAGE_CONNECTED 4    /* proved, by a path from start to goal */
+#define CAGE_IN_COLLISION 5 /* the start or the goal itself collides */
+
+/* ---- what a verdict rests on -------------------------------------------------------------------- */
+#define CAGE_REASON_RUNNING 0     /* cage_prove_run has more to do */
+#define CAGE_REASON_CLOSED 1      /* the reached part of the inner slices is closed */
+#define CAGE_REASON_PATH 2        /* a certified path */
+#define CAGE_REASON_START 3       /* the start collides */
+#define CAGE_REASON_GOAL 4        /* the goal collides */
+#define CAGE_REASON_LEVEL 5       /* undefined: every cell on every way is as fine as max_level allows */
+#define CAGE_REASON_CELLS 6       /* undefined: max_cells are in use */
+#define CAGE_REASON_SIDE 7        /* undefined: the one side that was asked for cannot decide */
+
+/* ---- input --------------------------------------------------------------------------------------- */
+
+/* A closed ball: centre and radius in grid units; z is 0 in the plane. */
+typedef struct cage_ball {
+    int32_t x, y, z, r;
+} cage_ball;
+
+/* A solid, seen from both sides: every inner ball lies inside it, the outer balls together cover
+ * it. Separation is proved about the inner balls, paths about the outer ones. Balls that are the
+ * solid are given twice (the same pointer will do). Counts may be 0; the balls stay the caller's. */
+typedef struct cage_shape {
+    const cage_ball *inner; /* inner_count balls */
+    const cage_ball *outer; /* outer_count balls */
+    int32_t inner_count;
+    int32_t outer_count;
+} cage_shape;
+
+typedef struct cage_scene {
+    cage_shape object;    /* in the object's frame */
+    cage_shape obstacles; /* in the world */
+    int32_t dim;          /* 2 or 3 */
+} cage_scene;
+
+/* A pose takes the point y of the object to x + R(q) y. The quaternion q = (w, x, y, z) need not be
+ * of unit length, q and -q are the same; in the plane q = (w, 0, 0, z) turns by 2 atan2(z, w). */
+typedef struct cage_pose {
+    int32_t x[3];
+    int32_t q[4];
+} cage_pose;
+
+#define CAGE_SIDE_INNER 1 /* look for a proof of CAGED / DISCONNECTED only */
+#define CAGE_SIDE_OUTER 2 /* look for a path only */
+#define CAGE_SIDE_BOTH 3
+
+/* Limits of a search. cage_limits_default fills in values that decide ordinary scenes in seconds. */
+typedef struct cage_limits {
+    int32_t side;        /* CAGE_SIDE_... */
+    int32_t start_level; /* the cells' first level, or -1: chosen from the balls */
+    int32_t max_level;   /* 0 to CAGE_LEVEL_MAX_2D */
+    int32_t max_cells;   /* cells ever made, at least 2 */
+} cage_limits;
+
+/* ---- output -------------------------------------------------------------------------------------- */
+
+/* Counts of work are a function of scene, query and limits alone. Index 0 is the inner side, 1 the outer. */
+typedef struct cage_result {
+    int32_t verdict;        /* CAGE_CAGED, ... */
+    int32_t reason;         /* CAGE_REASON_... */
+    int32_t level;          /* of the finest cell made */
+    int32_t cells;          /* cells made, refined ones included */
+    int32_t slices[2];      /* slices built */
+    int32_t gluings[2];     /* pairs of neighbouring slices glued */
+    int32_t mixtures[2];    /* gluings that needed a triangulation of their own */
+    int32_t reached[2];     /* (cell, component) nodes reached from the start when the search ended */
+    int64_t balls[2];       /* collision balls of all slices */
+    int64_t inserted[2];    /* of these, the ones triangulated (the rest is covered by them) */
+    int64_t steps;          /* steps taken */
+    uint64_t peak_bytes;    /* most bytes of the block in use at once, caches not counted */
+    uint64_t needed_bytes;  /* after CAGE_ERROR_MEMORY: a block of this size gets at least further */
+    int32_t pivot[3];       /* the point of the object that rotations are about, in the object's frame */
+    int32_t path_count;     /* poses on the path, 0 where there is none */
+    const cage_pose *path;  /* in the caller's block; x is where the PIVOT is: see cage_path_check */
+} cage_result;
+
+/* ---- poses --------------------------------------------------------------------------------------- */
+
+/* Does the scene fit (see CAGE_REACH)? CAGE_OK or the error that cage_prove_begin would give. */
+int32_t cage_scene_check(const cage_scene *scene);
+
+/* Does the object at this pose (user's frame) collide? 1 or 0, exact, or an error. side: CAGE_SIDE_INNER
+ * for the inner balls of object and obstacles, CAGE_SIDE_OUTER for the outer ones. */
+int32_t cage_collides(const cage_scene *scene, const cage_pose *pose, int32_t side);
+
+/* ---- proofs -------------------------------------------------------------------------------------- */
+
+typedef struct cage_proof cage_proof; /* lives at the start of the caller's block */
+
+void cage_limits_default(cage_limits *limits, int32_t dim);
+
+/* Bytes that a proof of this scene needs to begin and to do ordinary work; more memory never changes
+ * an answer, it only saves building slices twice. 0 if the scene is not valid. */
+size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits);
+
+/* Ask: can the object leave the start (goal null), or get from start to goal? The scene's balls are
+ * read until the proof is finished; memory (any alignment) is used until the result was read. */
+int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage_pose *start,
+                         const cage_pose *goal, const cage_limits *limits, void *memory, size_t bytes);
+
+/* Do at most that many steps; a step builds one slice, glues one pair of slices or refines one cell.
+ * 1: finished, 0: more to do, negative: an error (the result keeps its counts, and needed_bytes). The
+ * answer does not depend on how the steps are portioned. */
+int32_t cage_prove_run(cage_proof *proof, int64_t steps);
+
+/* The result so far; verdict is CAGE_UNDEFINED until cage_prove_run returned 1. */
+const cage_result *cage_prove_result(const cage_proof *proof);
+
+/* Where can the pivot be? mask[i + nx (j + ny k)] becomes 1 where the point origin + pitch (i, j, k) lies in
+ * the reached part of the inner slices for some rotation, else 0; count = {nx, ny, nz}, nz = 1 in
+ * the plane. Builds slices again: takes as long as a part of the proof. For pictures and statistics. */
+int32_t cage_prove_region(cage_proof *proof, const int32_t origin[3], int32_t pitch,
+                          const int32_t count[3], uint8_t *mask);
+
+/* ---- paths --------------------------------------------------------------------------------------- */
+
+/* A path is a sequence of poses of the pivot: the object's ball (y, r) sits at x + R(q)(y - pivot).
+ * From each pose to the next either x is the same and the object turns about the pivot along the shorter arc, or q
+ * is the same (up to scale) and it moves on a straight line. The first pose is the start, its pivot moved
+ * to a grid point less than 1 unit away; with a goal the last pose is the goal, likewise. Without one, at the last pose
+ * the whole object is beyond an axis-parallel line (plane) that has all obstacles on its other side.
+ *
+ * 1 when the whole motion, the moves from start and to goal included, is proved free of collision for the outer
+ * balls as given, continuous in time; 0 when it is not; or an error. Shares no code with the search. */
+int32_t cage_path_check(const cage_scene *scene, const cage_pose *start, const cage_pose *goal,
+                        const int32_t pivot[3], const cage_pose *path, int32_t count);
+
+/* ---- words --------------------------------------------------------------------------------------- */
+const char *cage_verdict_text(int32_t verdict); /* "CAGED", ... */
+const char *cage_reason_text(int32_t reason);
+const char *cage_error_text(int32_t error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

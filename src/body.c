@@ -1,0 +1,211 @@
+/* body: a scene as one side of the proof sees it, and exact questions about single poses. */
+#include "body.h"
+#include "grid.h"
+#include "predicate.h"
+
+static const cage_ball *shape_balls(const cage_shape *shape, int32_t sign, int32_t *count)
+{
+    *count = sign < 0 ? shape->inner_count : shape->outer_count;
+    return sign < 0 ? shape->inner : shape->outer;
+}
+
+/* Distance from p to the centre, rounded up; entries at most 2^29 apart. */
+static int32_t distance(const cage_ball *ball, const int32_t p[3])
+{
+    const int32_t v[3] = {ball->x - p[0], ball->y - p[1], ball->z - p[2]};
+    return cage_length(v);
+}
+
+/* The largest distance from p to a centre of either set, and the ball it belongs to (null: no balls). */
+static int32_t farthest(const cage_shape *object, const int32_t p[3], const cage_ball **ball)
+{
+    int32_t largest = -1, count;
+    *ball = NULL;
+    for (int32_t sign = -1; sign <= 1; sign += 2) {
+        const cage_ball *from = shape_balls(object, sign, &count);
+        for (int32_t i = 0; i < count; i++) {
+            int32_t far = distance(&from[i], p);
+            if (far > largest) {
+                largest = far;
+                *ball = &from[i];
+            }
+        }
+    }
+    return largest;
+}
+
+/* Badoiu and Clarkson, "Smaller core-sets for balls", SODA 2003: step 1/(n+1) of the way to the farthest centre. */
+void cage_pivot(const cage_shape *object, int32_t pivot[3])
+{
+    const int32_t origin[3] = {0, 0, 0};
+    int32_t p[3] = {0, 0, 0};
+    const cage_ball *far;
+    int32_t best = farthest(object, origin, &far);
+    pivot[0] = pivot[1] = pivot[2] = 0;
+    for (int32_t n = 0; n < 128 && far; n++) {
+        p[0] += (far->x - p[0]) / (n + 1);
+        p[1] += (far->y - p[1]) / (n + 1);
+        p[2] += (far->z - p[2]) / (n + 1);
+        int32_t size = farthest(object, p, &far);
+        if (size < best) {
+            best = size;
+            pivot[0] = p[0];
+            pivot[1] = p[1];
+            pivot[2] = p[2];
+        }
+    }
+}
+
+int32_t cage_side_make(struct cage_arena *arena, const cage_scene *scene, const int32_t pivot[3], int32_t sign,
+                       struct cage_side *out)
+{
+    const cage_ball *from = shape_balls(&scene->object, sign, &out->objects);
+    cage_ball *ball = cage_arena_take(arena, (size_t)out->objects, sizeof *ball);
+    int32_t *reach = cage_arena_take(arena, (size_t)out->objects, sizeof *reach);
+    if (!ball || !reach)
+        return CAGE_ERROR_MEMORY;
+    for (int32_t i = 0; i < out->objects; i++) {
+        reach[i] = distance(&from[i], pivot);
+        ball[i] = from[i];
+        ball[i].x -= pivot[0];
+        ball[i].y -= pivot[1];
+        ball[i].z -= pivot[2];
+    }
+    out->object = ball;
+    out->reach = reach;
+    out->obstacle = shape_balls(&scene->obstacles, sign, &out->obstacles);
+    out->dim = scene->dim;
+    out->sign = sign;
+    return CAGE_OK;
+}
+
+static int32_t reach_limit(int32_t dim) { return dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D; }
+
+static bool within(int32_t value, int32_t limit) { return value >= -limit && value <= limit; }
+
+static int32_t shape_check(int32_t dim, const cage_shape *shape)
+{
+    for (int32_t sign = -1; sign <= 1; sign += 2) {
+        int32_t count, limit = reach_limit(dim);
+        const cage_ball *ball = shape_balls(shape, sign, &count);
+        if (count < 0 || (count > 0 && !ball))
+            return CAGE_ERROR_ARGUMENT;
+        for (int32_t i = 0; i < count; i++) {
+            if (dim == 2 && ball[i].z != 0)
+                return CAGE_ERROR_DIMENSION;
+            if (ball[i].r < 0)
+                return CAGE_ERROR_RADIUS;
+            if (!within(ball[i].x, limit) || !within(ball[i].y, limit) || !within(ball[i].z, limit) || ball[i].r > limit)
+                return CAGE_ERROR_RANGE;
+        }
+    }
+    return CAGE_OK;
+}
+
+/* max over both sets of factor |centre - from| + r; terms < 2^28, 3 2^29 + 2^28. */
+static int64_t extent(const cage_shape *shape, const int32_t from[3], int64_t factor)
+{
+    int64_t most = 0;
+    for (int32_t sign = -1; sign <= 1; sign += 2) {
+        int32_t count;
+        const cage_ball *ball = shape_balls(shape, sign, &count);
+        for (int32_t i = 0; i < count; i++) {
+            int64_t size = factor * distance(&ball[i], from) + ball[i].r;
+            most = size > most ? size : most;
+        }
+    }
+    return most;
+}
+
+int32_t cage_scene_check(const cage_scene *scene)
+{
+    if (!scene)
+        return CAGE_ERROR_ARGUMENT;
+    if (scene->dim != 2 && scene->dim != 3)
+        return CAGE_ERROR_DIMENSION;
+    int32_t error = shape_check(scene->dim, &scene->object);
+    if (error == CAGE_OK)
+        error = shape_check(scene->dim, &scene->obstacles);
+    if (error != CAGE_OK)
+        return error;
+    /* A slice of any cell: |centre| <= |X| + |y|, radius <= R + r + 2 |y| + slack + 1, all within CAGE_REACH. */
+    int32_t pivot[3];
+    const int32_t origin[3] = {0, 0, 0};
+    cage_pivot(&scene->object, pivot);
+    int64_t size = extent(&scene->obstacles, origin, 1) + extent(&scene->object, pivot, 3) + 16;
+    if (size > reach_limit(scene->dim))
+        return CAGE_ERROR_RANGE;
+    /* Collision balls of a slice are counted in 28 bits. */
+    for (int32_t sign = -1; sign <= 1; sign += 2) {
+        int32_t objects, obstacles;
+        shape_balls(&scene->object, sign, &objects);
+        shape_balls(&scene->obstacles, sign, &obstacles);
+        if ((int64_t)objects * obstacles > 1 << 28)
+            return CAGE_ERROR_RANGE;
+    }
+    return CAGE_OK;
+}
+
+int32_t cage_pose_check(int32_t dim, const cage_pose *pose)
+{
+    int32_t limit = dim == 2 ? CAGE_QUATERNION_2D : CAGE_QUATERNION_3D;
+    for (int32_t k = 0; k < 3; k++)
+        if (!within(pose->x[k], reach_limit(dim)))
+            return CAGE_ERROR_RANGE;
+    if (dim == 2 && pose->x[2] != 0)
+        return CAGE_ERROR_DIMENSION;
+    if (dim == 2 && (pose->q[1] != 0 || pose->q[2] != 0))
+        return CAGE_ERROR_ROTATION;
+    for (int32_t k = 0; k < 4; k++)
+        if (!within(pose->q[k], limit))
+            return CAGE_ERROR_ROTATION;
+    return pose->q[0] || pose->q[1] || pose->q[2] || pose->q[3] ? CAGE_OK : CAGE_ERROR_ROTATION;
+}
+
+void cage_pose_pivot(const cage_pose *pose, const int32_t pivot[3], int32_t out[3])
+{
+    struct cage_rotation rotation;
+    cage_rotation_of(pose->q, &rotation);
+    cage_rotate(&rotation, pivot, out);
+    for (int32_t k = 0; k < 3; k++)
+        out[k] += pose->x[k];
+}
+
+/* |N (x - X) + M y| < N (R + r) with the integer matrix M = N R(q), N = |q|^2 <= 2^62: terms < 2^62 2^30 + 3 2^62 2^28. */
+static bool pair_collides(const cage_pose *pose, const cage_ball *y, const cage_ball *x)
+{
+    int64_t w = pose->q[0], i = pose->q[1], j = pose->q[2], k = pose->q[3];
+    int64_t ww = w * w, ii = i * i, jj = j * j, kk = k * k, norm = ww + ii + jj + kk;
+    const int64_t m[3][3] = {
+        {ww + ii - jj - kk, 2 * (i * j - w * k), 2 * (i * k + w * j)},
+        {2 * (i * j + w * k), ww - ii + jj - kk, 2 * (j * k - w * i)},
+        {2 * (i * k - w * j), 2 * (j * k + w * i), ww - ii - jj + kk},
+    };
+    const int64_t apart[3] = {(int64_t)pose->x[0] - x->x, (int64_t)pose->x[1] - x->y, (int64_t)pose->x[2] - x->z};
+    cage_i128 n[3];
+    for (int32_t a = 0; a < 3; a++) {
+        n[a] = cage_i128_add(cage_i128_mul(norm, apart[a]), cage_i128_mul(m[a][0], y->x));
+        n[a] = cage_i128_add(n[a], cage_i128_add(cage_i128_mul(m[a][1], y->y), cage_i128_mul(m[a][2], y->z)));
+    }
+    return cage_norm_compare(n, cage_i128_mul(norm, (int64_t)x->r + y->r)) < 0;
+}
+
+int32_t cage_collides(const cage_scene *scene, const cage_pose *pose, int32_t side)
+{
+    int32_t error = cage_scene_check(scene);
+    if (error != CAGE_OK)
+        return error;
+    if (!pose || (side != CAGE_SIDE_INNER && side != CAGE_SIDE_OUTER))
+        return CAGE_ERROR_ARGUMENT;
+    error = cage_pose_check(scene->dim, pose);
+    if (error != CAGE_OK)
+        return error;
+    int32_t objects, obstacles, sign = side == CAGE_SIDE_INNER ? -1 : 1;
+    const cage_ball *object = shape_balls(&scene->object, sign, &objects);
+    const cage_ball *obstacle = shape_balls(&scene->obstacles, sign, &obstacles);
+    for (int32_t i = 0; i < objects; i++)
+        for (int32_t j = 0; j < obstacles; j++)
+            if (pair_collides(pose, &object[i], &obstacle[j]))
+                return 1;
+    return 0;
+}

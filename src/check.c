@@ -1,0 +1,253 @@
+/* check: is a motion free of collision? Shares no geometry with the search.
+ *
+ * Object balls are placed by dividing exact integers, R(q) y = M(q) y / |q|^2 to the nearest grid point: off by less than 1
+ * unit, so a distance that is 1 unit larger than needed is large enough. During a turn about the pivot along
+ * the shorter arc (at most 90 degrees between the quaternions) a ball is never farther from where it began than where it ends. */
+#include "check.h"
+#include "body.h"
+#include "wide.h"
+
+enum { PLACE_LIMIT = 1 << 30, SPLITS = 1 << 10 };
+
+/* N R(q) v, N = |q|^2, entries of q at most 2^30, of v at most 2^29: < 2^93. */
+static void turned(const int32_t q[4], const int32_t v[3], cage_i128 out[3], int64_t *norm)
+{
+    const int64_t w = q[0], x = q[1], y = q[2], z = q[3];
+    const int64_t m[3][3] = {
+        {w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)},
+        {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},
+        {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z},
+    };
+    for (int32_t i = 0; i < 3; i++)
+        out[i] = cage_i128_add(cage_i128_add(cage_i128_mul(m[i][0], v[0]), cage_i128_mul(m[i][1], v[1])),
+                               cage_i128_mul(m[i][2], v[2]));
+    *norm = w * w + x * x + y * y + z * z;
+}
+
+/* R(q)(ball - pivot) to the nearest grid point; true if that is exact. */
+static bool place(const int32_t q[4], const cage_ball *ball, const int32_t pivot[3], int64_t at[3])
+{
+    const int32_t v[3] = {ball->x - pivot[0], ball->y - pivot[1], ball->z - pivot[2]};
+    cage_i128 n[3];
+    int64_t norm;
+    bool exact = true;
+    turned(q, v, n, &norm);
+    for (int32_t i = 0; i < 3; i++) {
+        at[i] = cage_i128_nearest(n[i], cage_i128_of(norm), PLACE_LIMIT);
+        exact = exact && cage_i128_compare(cage_i128_mul(at[i], norm), n[i]) == 0;
+    }
+    return exact;
+}
+
+/* Is the point c at least `apart` away from the segment a b? |differences| < 2^31.6 in the plane: products < 2^64.2 are kept
+ * in 128 bits, and cross^2 < 2^127 by cross < 2^63.2 (|b - a| < 2^31.5, |c - a| < 2^31.6, in the plane). */
+static bool segment_clear(const int32_t a[3], const int32_t b[3], const int64_t c[3], int64_t apart)
+{
+    int64_t u[3], v[3], w[3];
+    cage_i128 along = cage_i128_of(0), length = along, from_a = along, from_b = along;
+    for (int32_t i = 0; i < 3; i++) {
+        u[i] = (int64_t)b[i] - a[i];
+        v[i] = c[i] - a[i];
+        w[i] = c[i] - b[i];
+        along = cage_i128_add(along, cage_i128_mul(u[i], v[i]));
+        length = cage_i128_add(length, cage_i128_mul(u[i], u[i]));
+        from_a = cage_i128_add(from_a, cage_i128_mul(v[i], v[i]));
+        from_b = cage_i128_add(from_b, cage_i128_mul(w[i], w[i]));
+    }
+    cage_i128 square = cage_i128_mul(apart, apart);
+    if (cage_i128_sign(along) <= 0)
+        return cage_i128_compare(from_a, square) >= 0;
+    if (cage_i128_compare(along, length) >= 0)
+        return cage_i128_compare(from_b, square) >= 0;
+    /* |v|^2 |u|^2 - (u.v)^2 >= apart^2 |u|^2, in 256 bits */
+    cage_i256 excess = cage_i256_mul(cage_i128_sub(from_a, square), length);
+    return cage_i256_sign(cage_i256_sub(excess, cage_i256_mul(along, along))) >= 0;
+}
+
+bool cage_check_leg(const cage_scene *scene, const int32_t pivot[3], const int32_t q[4], const int32_t a[3], const int32_t b[3],
+                    int32_t spare)
+{
+    for (int32_t i = 0; i < scene->object.outer_count; i++) {
+        const cage_ball *y = &scene->object.outer[i];
+        int64_t at[3];
+        int64_t inexact = place(q, y, pivot, at) ? 0 : 1;
+        for (int32_t j = 0; j < scene->obstacles.outer_count; j++) {
+            const cage_ball *x = &scene->obstacles.outer[j];
+            const int64_t centre[3] = {x->x - at[0], x->y - at[1], x->z - at[2]};
+            if (!segment_clear(a, b, centre, (int64_t)x->r + y->r + inexact + spare))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* May the object turn about the pivot at p from q to r? Tested from q's end. */
+static bool arc_clear(const cage_scene *scene, const int32_t pivot[3], const int32_t p[3], const int32_t q[4], const int32_t r[4])
+{
+    for (int32_t i = 0; i < scene->object.outer_count; i++) {
+        const cage_ball *y = &scene->object.outer[i];
+        int64_t at[3], to[3];
+        place(q, y, pivot, at);
+        place(r, y, pivot, to);
+        const int32_t moved[3] = {(int32_t)(to[0] - at[0]), (int32_t)(to[1] - at[1]), (int32_t)(to[2] - at[2])};
+        cage_i128 square = cage_i128_of(0);
+        for (int32_t k = 0; k < 3; k++)
+            square = cage_i128_add(square, cage_i128_mul(moved[k], moved[k]));
+        /* The root rounded up, both ends off by less than 1, and the centre itself. */
+        int64_t spare = (int64_t)cage_u128_root(square) + 1 + 2 + 1;
+        for (int32_t j = 0; j < scene->obstacles.outer_count; j++) {
+            const cage_ball *x = &scene->obstacles.outer[j];
+            const int64_t centre[3] = {x->x - at[0], x->y - at[1], x->z - at[2]};
+            if (!segment_clear(p, p, centre, (int64_t)x->r + y->r + spare))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* The rotation k / n of the way from q to r, to 2^30: (n - k) q + k r, in 64 bits, shifted down. In the plane it stays on the arc. */
+static void between(const int32_t q[4], const int32_t r[4], int32_t k, int32_t n, int32_t out[4])
+{
+    int64_t mixed[4], dot = 0, largest = 0;
+    for (int32_t i = 0; i < 4; i++)
+        dot += (int64_t)q[i] * r[i]; /* <= 2^62 */
+    for (int32_t i = 0; i < 4; i++) {
+        mixed[i] = (int64_t)(n - k) * q[i] + (dot < 0 ? -1 : 1) * (int64_t)k * r[i]; /* n 2^30 */
+        int64_t size = mixed[i] < 0 ? -mixed[i] : mixed[i];
+        largest = size > largest ? size : largest;
+    }
+    int64_t divisor = 1;
+    while (largest / divisor > 1 << 30)
+        divisor *= 2;
+    for (int32_t i = 0; i < 4; i++)
+        out[i] = (int32_t)(mixed[i] / divisor);
+}
+
+/* The whole arc, in pieces as small as need be. */
+static bool turn_clear(const cage_scene *scene, const int32_t pivot[3], const int32_t p[3], const int32_t q[4], const int32_t r[4])
+{
+    for (int32_t n = 1; n <= SPLITS; n *= 4) {
+        bool clear = true;
+        int32_t from[4] = {q[0], q[1], q[2], q[3]}, to[4];
+        for (int32_t k = 1; clear && k <= n; k++) {
+            between(q, r, k, n, to);
+            clear = arc_clear(scene, pivot, p, from, to);
+            for (int32_t i = 0; i < 4; i++)
+                from[i] = to[i];
+        }
+        if (clear)
+            return true;
+    }
+    return false;
+}
+
+static bool same_rotation(const int32_t q[4], const int32_t r[4])
+{
+    for (int32_t i = 0; i < 4; i++)
+        for (int32_t k = 0; k < i; k++)
+            if ((int64_t)q[i] * r[k] != (int64_t)q[k] * r[i])
+                return false;
+    return true;
+}
+
+static bool same_place(const int32_t a[3], const int32_t b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+/* Is `at` the pose with its pivot moved to a grid point less than 1 unit away, and is that move free? */
+static bool end_clear(const cage_scene *scene, const int32_t pivot[3], const cage_pose *pose, const cage_pose *at)
+{
+    cage_i128 n[3];
+    int64_t norm;
+    bool exact = true;
+    turned(pose->q, pivot, n, &norm);
+    for (int32_t i = 0; i < 3; i++) {
+        /* |N (at - x) - M c| <= N / 2 on each axis: 0.71 away at most in the plane; < 2^94 */
+        cage_i128 off = cage_i128_abs(cage_i128_sub(cage_i128_mul(norm, (int64_t)at->x[i] - pose->x[i]), n[i]));
+        if (cage_i128_compare(cage_i128_shl(off, 1), cage_i128_of(norm)) > 0)
+            return false;
+        exact = exact && cage_i128_sign(off) == 0;
+    }
+    return same_rotation(pose->q, at->q) && cage_check_leg(scene, pivot, at->q, at->x, at->x, exact ? 0 : 1);
+}
+
+void cage_check_extent(const cage_scene *scene, int32_t axis, int32_t *low, int32_t *high)
+{
+    *low = INT32_MAX;
+    *high = INT32_MIN;
+    for (int32_t j = 0; j < scene->obstacles.outer_count; j++) {
+        const cage_ball *x = &scene->obstacles.outer[j];
+        const int32_t at[3] = {x->x, x->y, x->z};
+        *low = at[axis] - x->r < *low ? at[axis] - x->r : *low;
+        *high = at[axis] + x->r > *high ? at[axis] + x->r : *high;
+    }
+}
+
+int32_t cage_check_size(const cage_scene *scene, const int32_t pivot[3])
+{
+    int32_t most = 0;
+    for (int32_t i = 0; i < scene->object.outer_count; i++) {
+        const cage_ball *y = &scene->object.outer[i];
+        const int64_t v[3] = {(int64_t)y->x - pivot[0], (int64_t)y->y - pivot[1], (int64_t)y->z - pivot[2]};
+        int32_t size = (int32_t)cage_u128_root(cage_i128_of(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])) + 1 + y->r;
+        most = size > most ? size : most;
+    }
+    return most;
+}
+
+/* At this pose a line perpendicular to an axis separates the object, however turned, from all obstacles. */
+static bool is_beyond(const cage_scene *scene, const int32_t pivot[3], const cage_pose *at)
+{
+    int64_t size = cage_check_size(scene, pivot);
+    for (int32_t axis = 0; axis < scene->dim; axis++) {
+        int32_t low, high;
+        cage_check_extent(scene, axis, &low, &high);
+        if (low > high || at->x[axis] - size >= high || at->x[axis] + size <= low)
+            return true;
+    }
+    return false;
+}
+
+int32_t cage_path_check(const cage_scene *scene, const cage_pose *start, const cage_pose *goal, const int32_t pivot[3],
+                        const cage_pose *path, int32_t count)
+{
+    int32_t error = cage_scene_check(scene);
+    if (error != CAGE_OK)
+        return error;
+    if (!start || !pivot || !path || count < 1)
+        return CAGE_ERROR_ARGUMENT;
+    if (scene->dim != 2)
+        return CAGE_ERROR_DIMENSION;
+    error = cage_pose_check(scene->dim, start);
+    if (error == CAGE_OK && goal)
+        error = cage_pose_check(scene->dim, goal);
+    for (int32_t i = 0; i < 3 && error == CAGE_OK; i++)
+        if (pivot[i] < -CAGE_REACH_2D || pivot[i] > CAGE_REACH_2D)
+            error = CAGE_ERROR_RANGE;
+    if (error != CAGE_OK)
+        return error;
+    for (int32_t n = 0; n < count; n++) {
+        const cage_pose *at = &path[n];
+        for (int32_t i = 0; i < 3; i++)
+            if (at->x[i] < -PLACE_LIMIT || at->x[i] > PLACE_LIMIT)
+                return CAGE_ERROR_RANGE;
+        cage_pose turn_only = {{0, 0, 0}, {at->q[0], at->q[1], at->q[2], at->q[3]}};
+        error = cage_pose_check(scene->dim, &turn_only);
+        if (error != CAGE_OK)
+            return error;
+    }
+    if (!end_clear(scene, pivot, start, &path[0]))
+        return 0;
+    for (int32_t n = 0; n + 1 < count; n++) {
+        const cage_pose *a = &path[n], *b = &path[n + 1];
+        bool clear = false;
+        if (same_rotation(a->q, b->q))
+            clear = cage_check_leg(scene, pivot, a->q, a->x, b->x, 0);
+        else if (same_place(a->x, b->x))
+            clear = turn_clear(scene, pivot, a->x, a->q, b->q);
+        if (!clear)
+            return 0;
+    }
+    return goal ? end_clear(scene, pivot, goal, &path[count - 1]) : is_beyond(scene, pivot, &path[count - 1]);
+}

@@ -1,0 +1,332 @@
+/* delaunay: the weighted Delaunay (regular) triangulation of balls, in the plane or in space.
+ *
+ * Incremental insertion: locate the new site, carve the simplices in conflict with it, stitch new ones between it
+ * and the boundary of the hole (Bowyer, Watson 1981; for weights Edelsbrunner, Shah 1996). The tie rule makes the
+ * triangulation that of generic heights, so the hole is star-shaped, no new simplex is flat, and a site
+ * swallowed by the hole is hidden. Functions that take dim are compiled once for each value. */
+#include "delaunay.h"
+#include "order.h"
+
+/* Working state of one build. mark[s] = 2 p + conflict, for the last site p that was tested against s. */
+struct build {
+    const struct cage_site *site;
+    struct cage_simplex *simplex;
+    int32_t *mark;
+    int32_t *hole;  /* simplices in conflict */
+    int32_t *front; /* facets between them and the others, as 4 s + i with s in the hole */
+    int32_t capacity;
+    int32_t simplices; /* slots in use, dead ones included */
+    int32_t dead;      /* first of a list of dead slots linked through v[1], or -1; a dead slot has v[0] = -1 */
+    int32_t last;      /* a live simplex near the last insertion */
+};
+
+enum { UNLINKED = INT32_MIN };
+
+enum { BYTES_PER_SIMPLEX = sizeof(struct cage_simplex) + 3 * sizeof(int32_t) };
+
+static CAGE_INLINE const int32_t *face_of(int32_t dim, int32_t i)
+{
+    return dim == 2 ? CAGE_FACE_2D[i] : CAGE_FACE_3D[i];
+}
+
+static CAGE_INLINE void face_sites(int32_t dim, const struct cage_site *site, const struct cage_simplex *s, int32_t i,
+                                   const struct cage_site *out[3])
+{
+    const int32_t *face = face_of(dim, i);
+    for (int32_t k = 0; k < dim; k++)
+        out[k] = &site[s->v[face[k]]];
+}
+
+/* Walk toward p through facets that have it on their far side. In a weighted Delaunay triangulation this
+ * cannot cycle (Edelsbrunner, "An acyclicity theorem for cell complexes in d dimensions", 1990). */
+static CAGE_INLINE int32_t walk(int32_t dim, const struct cage_site *site, const struct cage_simplex *simplex,
+                                const struct cage_site *p, int32_t s)
+{
+    int32_t from = -1;
+    for (;;) {
+        const struct cage_simplex *here = &simplex[s];
+        int32_t i = 0;
+        for (; i <= dim; i++) {
+            const struct cage_site *face[3];
+            if (here->twin[i] == CAGE_HULL || here->twin[i] >> 2 == from)
+                continue;
+            face_sites(dim, site, here, i, face);
+            if (cage_side(dim, face, p) < 0)
+                break;
+        }
+        if (i > dim)
+            return s;
+        from = s;
+        s = here->twin[i] >> 2;
+    }
+}
+
+static CAGE_INLINE bool in_conflict(int32_t dim, const struct build *b, int32_t s, const struct cage_site *p)
+{
+    const struct cage_site *v[4];
+    for (int32_t i = 0; i <= dim; i++)
+        v[i] = &b->site[b->simplex[s].v[i]];
+    return cage_conflict(dim, v, p);
+}
+
+/* A slot for a new simplex, or -1 when there is none left. */
+static int32_t new_slot(struct build *b)
+{
+    int32_t s = b->dead;
+    if (s >= 0) {
+        b->dead = b->simplex[s].v[1];
+        return s;
+    }
+    if (b->simplices == b->capacity)
+        return -1;
+    s = b->simplices++;
+    b->mark[s] = 0;
+    return s;
+}
+
+/* Gather the hole and its front, breadth first from simplex s, which is in conflict; the number of front facets. */
+static CAGE_INLINE int32_t carve(int32_t dim, struct build *b, int32_t p, int32_t s, int32_t *holes)
+{
+    const struct cage_site *site = &b->site[p];
+    int32_t count = 1, fronts = 0;
+    b->hole[0] = s;
+    b->mark[s] = 2 * p + 1;
+    for (int32_t n = 0; n < count; n++) {
+        int32_t h = b->hole[n];
+        for (int32_t i = 0; i <= dim; i++) {
+            int32_t twin = b->simplex[h].twin[i], other = twin >> 2;
+            if (twin != CAGE_HULL) {
+                if (b->mark[other] == 2 * p + 1)
+                    continue;
+                if (b->mark[other] != 2 * p) {
+                    bool conflict = in_conflict(dim, b, other, site);
+                    b->mark[other] = 2 * p + conflict;
+                    if (conflict) {
+                        b->hole[count++] = other;
+                        continue;
+                    }
+                }
+            }
+            b->front[fronts++] = 4 * h + i;
+        }
+    }
+    *holes = count;
+    return fronts;
+}
+
+/* Where v stands in s, which has it: without a branch, as nothing could predict it. */
+static CAGE_INLINE int32_t index_of(int32_t dim, const struct cage_simplex *s, int32_t v)
+{
+    int32_t i = (s->v[1] == v) + 2 * (s->v[2] == v);
+    return dim == 2 ? i : i + 3 * (s->v[3] == v);
+}
+
+/* A front facet of the hole names the new simplex behind it in place of its twin. */
+static CAGE_INLINE int32_t front_code(int32_t fresh) { return -2 - fresh; }
+
+/* Link facet j of the new simplex behind front facet i of h: turn about the ridge that lacks v_i and v_j, through
+ * the hole, to the next front facet; the new simplex behind that one is the neighbour. */
+static CAGE_INLINE void link_ridge(int32_t dim, struct build *b, int32_t fresh, int32_t h, int32_t i, int32_t j)
+{
+    struct cage_simplex *simplex = b->simplex;
+    int32_t s = h, out = j, kept = simplex[h].v[i], twin;
+    while ((twin = simplex[s].twin[out]) >= 0) {
+        s = twin >> 2;
+        out = index_of(dim, &simplex[s], kept);
+        kept = simplex[s].v[twin & 3];
+    }
+    int32_t neighbour = front_code(twin), facet = index_of(dim, &simplex[s], kept);
+    simplex[fresh].twin[j] = 4 * neighbour + facet;
+    simplex[neighbour].twin[facet] = 4 * fresh + j;
+}
+
+/* Replace the hole by simplices that join its front to site p. A new simplex is its hole simplex with one vertex
+ * replaced by p, which keeps it positive. False when the slots run out. */
+static CAGE_INLINE bool stitch(int32_t dim, struct build *b, int32_t p, int32_t fronts, int32_t holes)
+{
+    struct cage_simplex *simplex = b->simplex;
+    for (int32_t n = 0; n < fronts; n++) {
+        int32_t h = b->front[n] >> 2, i = b->front[n] & 3, fresh = new_slot(b);
+        if (fresh < 0)
+            return false;
+        int32_t twin = simplex[h].twin[i];
+        simplex[fresh] = simplex[h];
+        simplex[fresh].v[i] = p;
+        for (int32_t j = 0; j <= dim; j++)
+            simplex[fresh].twin[j] = UNLINKED;
+        simplex[fresh].twin[i] = twin;
+        if (twin != CAGE_HULL)
+            simplex[twin >> 2].twin[twin & 3] = 4 * fresh + i;
+        simplex[h].twin[i] = front_code(fresh);
+    }
+    for (int32_t n = 0; n < fronts; n++) {
+        int32_t h = b->front[n] >> 2, i = b->front[n] & 3, fresh = front_code(simplex[h].twin[i]);
+        for (int32_t j = 0; j <= dim; j++)
+            if (simplex[fresh].twin[j] == UNLINKED)
+                link_ridge(dim, b, fresh, h, i, j);
+        b->last = fresh;
+    }
+    for (int32_t n = 0; n < holes; n++) {
+        int32_t h = b->hole[n];
+        simplex[h].v[0] = -1;
+        simplex[h].v[1] = b->dead;
+        b->dead = h;
+    }
+    return true;
+}
+
+static CAGE_INLINE bool insert_all(int32_t dim, struct build *b, int32_t sites)
+{
+    for (int32_t p = dim + 1; p < sites; p++) {
+        int32_t s = walk(dim, b->site, b->simplex, &b->site[p], b->last);
+        b->last = s;
+        if (!in_conflict(dim, b, s, &b->site[p]))
+            continue; /* hidden: where the simplex that contains it is not in conflict, none is */
+        int32_t holes, fronts = carve(dim, b, p, s, &holes);
+        if (!stitch(dim, b, p, fronts, holes))
+            return false;
+    }
+    return true;
+}
+
+static bool insert_all_2d(struct build *b, int32_t sites) { return insert_all(2, b, sites); }
+static bool insert_all_3d(struct build *b, int32_t sites) { return insert_all(3, b, sites); }
+
+static struct cage_site make_site(int32_t x, int32_t y, int32_t z, int32_t r, int64_t weight)
+{
+    struct cage_site site = {(int64_t)x * x + (int64_t)y * y + (int64_t)z * z - weight, x, y, z, r};
+    return site;
+}
+
+/* The sentinels' simplex holds every point with |coordinates| <= M / 3, strictly. */
+static void make_sentinels(int32_t dim, struct cage_site *site)
+{
+    const int32_t m2 = 1 << 29, m3 = 1 << 24;
+    if (dim == 2) {
+        site[0] = make_site(-m2, -m2, 0, 0, -1);
+        site[1] = make_site(m2, -m2, 0, 0, -1);
+        site[2] = make_site(0, m2, 0, 0, -1);
+    } else {
+        site[0] = make_site(m3, m3, m3, 0, -1);
+        site[1] = make_site(m3, -m3, -m3, 0, -1);
+        site[2] = make_site(-m3, -m3, m3, 0, -1);
+        site[3] = make_site(-m3, m3, -m3, 0, -1);
+    }
+}
+
+/* Move live simplices into the dead slots before them, so that the slots in use are 0..simplices-1. */
+static void compact(int32_t dim, struct build *b)
+{
+    struct cage_simplex *simplex = b->simplex;
+    int32_t end = b->simplices;
+    for (int32_t s = 0; s < end; s++) {
+        if (simplex[s].v[0] >= 0)
+            continue;
+        do
+            end--;
+        while (end > s && simplex[end].v[0] < 0);
+        if (end == s)
+            break;
+        simplex[s] = simplex[end];
+        for (int32_t i = 0; i <= dim; i++)
+            if (simplex[s].twin[i] != CAGE_HULL)
+                simplex[simplex[s].twin[i] >> 2].twin[simplex[s].twin[i] & 3] = 4 * s + i;
+    }
+    b->simplices = end;
+}
+
+/* Slots that suffice: in the plane n sites make at most 2 n - 5 triangles, and the new ones stand beside those they replace; in
+ * space the number depends on the balls, up to their square, and 8 a site is usual. */
+static size_t slots_expected(int32_t dim, int32_t sites)
+{
+    return dim == 2 ? 4 * (size_t)sites : 9 * (size_t)sites + 64;
+}
+
+int32_t cage_delaunay(struct cage_arena *arena, int32_t dim, const cage_ball *ball, int32_t count,
+                      struct cage_triangulation *out)
+{
+    size_t mark = arena->used;
+    int32_t sites = dim + 1 + count;
+    struct cage_site *site = cage_arena_take(arena, (size_t)sites, sizeof *site);
+    int32_t *input = cage_arena_take(arena, (size_t)sites, sizeof *input);
+    if (!site || !input || cage_order(arena, dim, ball, count, input + dim + 1) != CAGE_OK) {
+        cage_arena_release(arena, mark);
+        return CAGE_ERROR_MEMORY;
+    }
+    make_sentinels(dim, site);
+    for (int32_t i = 0; i <= dim; i++)
+        input[i] = -1;
+    for (int32_t i = dim + 1; i < sites; i++) {
+        const cage_ball *from = &ball[input[i]];
+        site[i] = make_site(from->x, from->y, from->z, from->r, (int64_t)from->r * from->r);
+    }
+
+    /* All that is left serves as slots; what was not used is not counted. */
+    size_t kept = arena->used, room = cage_arena_room(arena, BYTES_PER_SIMPLEX), expected = slots_expected(dim, sites);
+    struct build b = {site, NULL, NULL, NULL, NULL, 0, 1, -1, 0};
+    b.capacity = room > INT32_MAX / 4 ? INT32_MAX / 4 : (int32_t)room;
+    size_t peak = arena->peak;
+    b.simplex = cage_arena_take(arena, (size_t)b.capacity, sizeof *b.simplex);
+    int32_t *lists = cage_arena_take(arena, (size_t)b.capacity, BYTES_PER_SIMPLEX - sizeof *b.simplex);
+    bool done = false;
+    if (b.capacity > 0 && b.simplex && lists) {
+        b.mark = lists;
+        b.hole = lists + b.capacity;
+        b.front = lists + 2 * (size_t)b.capacity;
+        const struct cage_simplex first = {{0, 1, 2, dim == 2 ? 0 : 3}, {CAGE_HULL, CAGE_HULL, CAGE_HULL, CAGE_HULL}};
+        b.simplex[0] = first;
+        b.mark[0] = 0;
+        done = dim == 2 ? insert_all_2d(&b, sites) : insert_all_3d(&b, sites);
+    }
+    arena->peak = peak;
+    cage_arena_release(arena, done ? kept : mark);
+    if (!done) {
+        arena->needed = kept + (expected > room ? expected : 2 * room + 1) * BYTES_PER_SIMPLEX + 4 * CAGE_ALIGN;
+        return CAGE_ERROR_MEMORY;
+    }
+    compact(dim, &b);
+    if (arena->peak < kept + (size_t)b.simplices * BYTES_PER_SIMPLEX)
+        arena->peak = kept + (size_t)b.simplices * BYTES_PER_SIMPLEX;
+    out->simplex = cage_arena_take(arena, (size_t)b.simplices, sizeof *b.simplex);
+    out->site = site;
+    out->ball = input;
+    out->dim = dim;
+    out->sites = sites;
+    out->simplices = b.simplices;
+    return CAGE_OK;
+}
+
+int32_t cage_delaunay_locate(const struct cage_triangulation *t, const int32_t p[3], int32_t hint)
+{
+    const struct cage_site point = {0, p[0], p[1], p[2], 0};
+    return t->dim == 2 ? walk(2, t->site, t->simplex, &point, hint) : walk(3, t->site, t->simplex, &point, hint);
+}
+
+int32_t cage_delaunay_locate_centre(const struct cage_triangulation *t, const struct cage_centre *centre, int32_t hint)
+{
+    int32_t s = hint, i = 0;
+    while (i <= t->dim) {
+        const struct cage_site *face[3];
+        cage_facet_sites(t, s, i, face);
+        if (cage_centre_side(t->dim, face, centre) >= 0) {
+            i++;
+            continue;
+        }
+        if (t->simplex[s].twin[i] == CAGE_HULL)
+            return -1;
+        s = t->simplex[s].twin[i] >> 2;
+        i = 0;
+    }
+    return s;
+}
+
+void cage_simplex_sites(const struct cage_triangulation *t, int32_t s, const struct cage_site *v[4])
+{
+    for (int32_t i = 0; i <= t->dim; i++)
+        v[i] = &t->site[t->simplex[s].v[i]];
+}
+
+void cage_facet_sites(const struct cage_triangulation *t, int32_t s, int32_t i, const struct cage_site *face[3])
+{
+    face_sites(t->dim, t->site, &t->simplex[s], i, face);
+}

@@ -1,0 +1,35 @@
+/* fibre: the compact factor of configuration space, cut into a tree of closed cells. */
+#ifndef CAGE_FIBRE_H
+#define CAGE_FIBRE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* A cell: a box of the face's cube at its level, at[k] in 0..2^level - 1 (only at[0] in the plane). */
+struct cage_cell {
+    int32_t level;
+    int32_t face;
+    int32_t at[3];
+};
+
+/* A fibre is a cover of a group of rotations by closed cells, and what the search needs to know of them. Cells of different
+ * levels are compared exactly. */
+struct cage_fibre {
+    int32_t roots;     /* cells of level 0 */
+    int32_t children;  /* of each cell */
+    int32_t max_level; /* quaternions of cells stay within 2^30 up to here */
+    void (*child)(const struct cage_cell *cell, int32_t index, struct cage_cell *out);
+    /* Do the closed cells share a piece of dimension f - 1 or f, f the fibre's? (True if one holds the other.) */
+    bool (*touch)(const struct cage_cell *a, const struct cage_cell *b);
+    bool (*contains)(const struct cage_cell *cell, const int32_t q[4]);
+    /* The representative rotation, and cage_turn from it to the farthest rotation of the cell. */
+    void (*representative)(const struct cage_cell *cell, int32_t q[4]);
+    int64_t (*turn)(const struct cage_cell *cell);
+    /* A rotation in both of two touching cells. */
+    void (*common)(const struct cage_cell *a, const struct cage_cell *b, int32_t q[4]);
+};
+
+/* The rotations of the plane. */
+extern const struct cage_fibre cage_so2;
+
+#endif

@@ -1,0 +1,19 @@
+/* glue: which components of neighbouring slices share a point. */
+#ifndef CAGE_GLUE_H
+#define CAGE_GLUE_H
+
+#include "slice.h"
+
+/* Component k of the first slice and l of the second have a point in common; x is one of them, or for a component
+ * thinner than the grid one less than 1 unit away (0.71, 0.87). */
+struct cage_touch {
+    int32_t k, l;
+    int32_t x[3];
+};
+
+/* All touching pairs of components of two slices of the same side of one scene: exact, each pair once. *touch is taken from the
+ * arena. *mixed: whether a triangulation of both slices' balls was needed. */
+int32_t cage_glue(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, struct cage_touch **touch,
+                  int32_t *count, int32_t *mixed);
+
+#endif

@@ -1,0 +1,88 @@
+/* grid: the only file that rounds: rotations, centres, radii inward or outward. */
+#include "grid.h"
+
+enum { MATRIX_BITS = 62, TURN_BITS = 31 };
+
+void cage_rotation_of(const int32_t q[4], struct cage_rotation *rotation)
+{
+    int64_t w = q[0], x = q[1], y = q[2], z = q[3];
+    int64_t ww = w * w, xx = x * x, yy = y * y, zz = z * z, norm = ww + xx + yy + zz; /* <= 4 2^60 = 2^62 */
+    const int64_t m[3][3] = {
+        {ww + xx - yy - zz, 2 * (x * y - w * z), 2 * (x * z + w * y)},
+        {2 * (x * y + w * z), ww - xx + yy - zz, 2 * (y * z - w * x)},
+        {2 * (x * z - w * y), 2 * (y * z + w * x), ww - xx - yy + zz},
+    };
+    /* |m| <= norm, so the shifted numerator is below 2^124. */
+    for (int32_t i = 0; i < 3; i++)
+        for (int32_t k = 0; k < 3; k++)
+            rotation->m[i][k] = cage_i128_nearest(cage_i128_scale(cage_i128_of((int64_t)1 << MATRIX_BITS), m[i][k]),
+                                                  cage_i128_of(norm), (int64_t)1 << MATRIX_BITS);
+}
+
+void cage_rotate(const struct cage_rotation *rotation, const int32_t y[3], int32_t out[3])
+{
+    /* Entries are off by 2^-63 at most: times 3 2^29, less than 2^-31. The sum is below 2^93. */
+    for (int32_t i = 0; i < 3; i++) {
+        cage_i128 sum = cage_i128_of((int64_t)1 << (MATRIX_BITS - 1));
+        for (int32_t k = 0; k < 3; k++)
+            sum = cage_i128_add(sum, cage_i128_mul(rotation->m[i][k], y[k]));
+        out[i] = (int32_t)(int64_t)cage_i128_low(cage_i128_shr(sum, MATRIX_BITS)); /* floor: the low word of a shift is that of
+                                                                                   the arithmetic shift */
+    }
+}
+
+/* The quaternion times a power of two, largest entry in [2^29, 2^30], and its norm rounded down. */
+static int64_t normalise(const int32_t q[4], int64_t out[4])
+{
+    int64_t largest = 0;
+    for (int32_t i = 0; i < 4; i++) {
+        out[i] = q[i];
+        int64_t size = out[i] < 0 ? -out[i] : out[i];
+        largest = size > largest ? size : largest;
+    }
+    for (; largest < (int64_t)1 << 29; largest *= 2)
+        for (int32_t i = 0; i < 4; i++)
+            out[i] *= 2;
+    cage_i128 square = cage_i128_of(0);
+    for (int32_t i = 0; i < 4; i++)
+        square = cage_i128_add(square, cage_i128_mul(out[i], out[i]));
+    return (int64_t)cage_u128_root(square); /* >= 2^29, <= 2^31 */
+}
+
+int64_t cage_turn(const int32_t q[4], const int32_t other[4])
+{
+    int64_t a[4], b[4];
+    int64_t norms = normalise(q, a) * normalise(other, b); /* 2^58 to 2^62, not above the true product */
+    /* |q ^ q'| = |q| |q'| sin: six minors <= 2^61, the sum of squares = |q|^2 |q'|^2 sin^2 <= 2^124 */
+    cage_i128 square = cage_i128_of(0);
+    for (int32_t i = 0; i < 4; i++)
+        for (int32_t k = 0; k < i; k++) {
+            int64_t minor = a[i] * b[k] - a[k] * b[i];
+            square = cage_i128_add(square, cage_i128_mul(minor, minor));
+        }
+    cage_i128 root = cage_u64_mul(cage_u128_root(square), 1), rest;
+    if (cage_i128_compare(cage_u64_mul(cage_i128_low(root), cage_i128_low(root)), square) < 0)
+        root = cage_i128_add(root, cage_i128_of(1));
+    cage_i128 turn = cage_u128_divide(cage_i128_shl(root, TURN_BITS + 1), cage_i128_of(norms), &rest);
+    return (int64_t)cage_i128_low(turn) + (cage_i128_sign(rest) != 0);
+}
+
+int32_t cage_displacement(int64_t turn, int32_t reach)
+{
+    /* (2^32 + 2) 2^29 + 2^31 < 2^62; the result is at most 2^30 + 1 */
+    return (int32_t)((turn * reach + ((int64_t)1 << TURN_BITS) - 1) >> TURN_BITS);
+}
+
+int32_t cage_length(const int32_t v[3])
+{
+    int64_t square = 0; /* <= 3 2^58 */
+    for (int32_t k = 0; k < 3; k++)
+        square += (int64_t)v[k] * v[k];
+    int64_t root = (int64_t)cage_u128_root(cage_i128_of(square));
+    return (int32_t)(root + (root * root < square));
+}
+
+int32_t cage_radius_change(int32_t displacement, int32_t sign)
+{
+    return sign < 0 ? -displacement - CAGE_SLACK_INNER : displacement + CAGE_SLACK_OUTER;
+}

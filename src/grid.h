@@ -1,0 +1,40 @@
+/* grid: the only file that rounds: rotations, centres, radii inward or outward. */
+#ifndef CAGE_GRID_H
+#define CAGE_GRID_H
+
+#include "wide.h"
+
+/* A rotation matrix in units of 2^-62, each entry to nearest. */
+struct cage_rotation {
+    int64_t m[3][3];
+};
+
+/* From a quaternion that is not 0, entries at most 2^30 in magnitude. Exact for the quarter turns about the axes. */
+void cage_rotation_of(const int32_t q[4], struct cage_rotation *rotation);
+
+/* R y, |y| <= 2^29, each coordinate rounded to nearest once: each is off by at most 1/2 + 2^-31, the point by less
+ * than 0.71 in the plane and 0.87 in space. */
+void cage_rotate(const struct cage_rotation *rotation, const int32_t y[3], int32_t out[3]);
+
+/* Twice the sine of the angle between two quaternions (that is, the largest |R y - R' y| / |y|), in units of 2^-31, rounded up: at most
+ * 2^32 + 2. Only for angles up to 90 degrees is the sine monotone; callers stay below. */
+int64_t cage_turn(const int32_t q[4], const int32_t other[4]);
+
+/* An upper bound of turn times reach, in grid units: 0 <= reach <= 2^29. */
+int32_t cage_displacement(int64_t turn, int32_t reach);
+
+/* |v| rounded up, entries at most 2^29. */
+int32_t cage_length(const int32_t v[3]);
+
+/* What rounding may cost, in grid units. A collision ball's centre is off by less than 0.71 (0.87), and so is
+ * a query that was rounded to the grid: together less than 2. So an inner ball of radius R + r - d - 2
+ * lies strictly inside the collision space, and still does when the rounded query stands for the true one: the segment
+ * between the two meets no inner ball. On the outer side way points are rounded too, and the check of the path
+ * rounds for itself: 8 covers all of it. */
+#define CAGE_SLACK_INNER 2
+#define CAGE_SLACK_OUTER 8
+
+/* What the displacement d changes in the radius R + r of a collision ball; sign -1: inner, +1: outer. |change| < 2^30 + 9. */
+int32_t cage_radius_change(int32_t displacement, int32_t sign);
+
+#endif

@@ -1,0 +1,124 @@
+/* host.h: what the files of the command share: text to balls, balls to grid, answers to text and pictures. */
+#ifndef CAGE_HOST_H
+#define CAGE_HOST_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+#include "cage.h"
+
+/* Exit codes of the command. */
+#define HOST_OK 0
+#define HOST_BROKEN 1    /* a path found by the search failed the independent check: a bug */
+#define HOST_BAD_INPUT 2 /* the message says where */
+#define HOST_MEMORY 3    /* the message says how much was needed */
+
+/* Larger numbers are refused, so that sums and squares of what was read are finite. */
+#define HOST_LARGEST 1e150
+
+/* What went wrong, for a person. Functions below that take one return HOST_OK or the exit code. */
+typedef struct host_error {
+    char text[1024];
+    int located; /* the text begins with file:line or file */
+} host_error;
+
+typedef struct host_ball {
+    double x[3]; /* z is 0 in the plane */
+    double r;
+} host_ball;
+
+typedef struct host_balls {
+    host_ball *ball;
+    int32_t count;
+    int32_t dim; /* 2 or 3; 0 while there is no ball */
+} host_balls;
+
+/* A pose as given: degrees in the plane, a quaternion (w, x, y, z) in space. */
+typedef struct host_pose {
+    double x[3];
+    double degrees;
+    double q[4];
+    int32_t dim;
+} host_pose;
+
+/* One query in the user's numbers. */
+typedef struct host_query {
+    host_balls object;
+    host_balls obstacles;
+    host_pose start;
+    host_pose goal;
+    int has_goal;
+    int32_t dim;
+} host_query;
+
+/* The same query on the grid: what is proved. */
+typedef struct host_grid {
+    cage_scene scene;
+    cage_pose start;
+    cage_pose goal;
+    double unit;     /* length of one grid unit */
+    int32_t rounded; /* balls whose inner and outer ball differ */
+    int32_t dropped; /* balls too small for an inner one */
+    cage_ball *balls[4];
+} host_grid;
+
+/* An answer and what is needed to show it. */
+typedef struct host_answer {
+    const host_query *query;
+    const host_grid *grid;
+    const cage_limits *limits;
+    const cage_result *result;
+    cage_proof *proof;
+    double seconds;
+} host_answer;
+
+/* ---- number.c --------------------------------------------------------------------------------- */
+
+int host_fail(host_error *error, int code, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 3, 4)))
+#endif
+    ;
+
+/* The numbers in a text, separated by white space or one comma; at most capacity are stored. Returns
+ * how many there are, or -1 and why. */
+int host_columns(const char *text, double *value, int capacity, host_error *why);
+
+int host_parse_pose(const char *text, host_pose *pose, host_error *why);
+int host_parse_unit(const char *text, double *unit, host_error *why);
+int host_parse_integer(const char *text, int32_t low, int32_t high, int32_t *value, host_error *why);
+/* A whole number of bytes, or one with the suffix K, M or G (times 1024, 1024^2, 1024^3). */
+int host_parse_bytes(const char *text, size_t *bytes, host_error *why);
+
+/* ---- balls_file.c ------------------------------------------------------------------------------ */
+
+/* Reads one ball a line, "x y r" or "x y z r". On success the caller frees with host_free_balls. */
+int host_read_balls(const char *path, host_balls *balls, host_error *error);
+void host_free_balls(host_balls *balls);
+
+/* ---- convert.c --------------------------------------------------------------------------------- */
+
+/* unit 0: the finest power of two that fits. The caller frees with host_free_grid, whatever the outcome. */
+int host_to_grid(const host_query *query, double unit, host_grid *grid, host_error *error);
+void host_free_grid(host_grid *grid);
+
+/* The pose in the user's numbers. pivot null: x is where the object's origin is; else x is where
+ * the point pivot of the object is, and the result is where its origin is. */
+void host_from_grid(const cage_pose *pose, const int32_t *pivot, int32_t dim, double unit,
+                    host_pose *result);
+
+/* Where a pose puts a point of the object (both in grid units), in the user's numbers. */
+void host_place(const cage_pose *pose, const int32_t point[3], double unit, double result[3]);
+
+/* ---- report.c ---------------------------------------------------------------------------------- */
+void host_report_text(FILE *out, const host_answer *answer);
+void host_report_json(FILE *out, const host_answer *answer);
+
+/* ---- svg.c -------------------------------------------------------------------------------------- */
+int host_write_svg(const char *path, const host_answer *answer, host_error *error);
+
+/* ---- prove_command.c --------------------------------------------------------------------------- */
+int host_prove(int argc, char **argv);
+void host_prove_help(FILE *out);
+
+#endif

@@ -1,0 +1,369 @@
+/* prove_command.c: "cage prove": options in, one proof, the answer out as text, JSON and picture. */
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "host.h"
+
+#define MIB ((size_t)1 << 20)
+#define FIRST_BLOCK (256 * MIB) /* taken where --memory is not given */
+#define LARGEST_BLOCK (SIZE_MAX / MIB > 4096 ? 4096 * MIB : SIZE_MAX / 2) /* it grows to this */
+#define STEPS_A_TURN 32         /* between two looks at the clock */
+
+typedef struct options {
+    const char *object, *obstacles, *start, *goal, *svg;
+    const char *side, *max_level, *max_cells, *memory, *unit;
+    int json, quiet;
+} options;
+
+void host_prove_help(FILE *out)
+{
+    cage_limits limits;
+
+    cage_limits_default(&limits, 2);
+    (void)fprintf(out,
+        "usage: cage prove --object FILE --obstacles FILE --start POSE [--goal POSE] [OPTIONS]\n"
+        "\n"
+        "Can the object, a rigid union of balls, leave the obstacles, a fixed union of balls? With a\n"
+        "goal: can it get there? The answer is a theorem about the balls given:\n"
+        "\n"
+        "  CAGED         no path leads from the start to arbitrarily far away\n"
+        "  DISCONNECTED  no path joins start and goal\n"
+        "  FREE          a path leads far away; it was found and checked\n"
+        "  CONNECTED     a path joins start and goal; it was found and checked\n"
+        "  IN_COLLISION  the start or the goal itself collides\n"
+        "  UNDEFINED     a limit was reached first; the output says which\n"
+        "\n"
+        "  --object FILE     the object's balls, in the object's own frame\n"
+        "  --obstacles FILE  the obstacles' balls\n"
+        "  --start POSE      where the object is\n"
+        "  --goal POSE       where it should go; without it: arbitrarily far away\n"
+        "\n"
+        "  FILE has one ball a line, \"x y r\" in the plane or \"x y z r\" in space, separated by white\n"
+        "  space or commas; # starts a comment. POSE is x,y,degrees in the plane (counter-clockwise) or\n"
+        "  x,y,z,qw,qx,qy,qz in space: the object's point p goes to R p + (x,y). Balls may touch.\n"
+        "  Proofs are in the plane only in this version.\n"
+        "\n");
+    (void)fprintf(out,
+        "options:\n"
+        "  --side both|inner|outer  look for a proof of CAGED or DISCONNECTED (inner), for a path (outer),\n"
+        "                           or for whichever exists (both, the default)\n"
+        "  --max-level N   finest cells of rotations, 0 to %d: level N has 2^(N+1) cells (default %ld)\n"
+        "  --max-cells N   cells made at most (default %ld)\n"
+        "  --memory BYTES  one block of this size and no more; K, M and G mean 1024, 1024^2, 1024^3.\n"
+        "                  Without it the block is 256M, and grows to 4G when the proof needs it\n"
+        "  --unit U        length of a grid unit (default: the finest power of two at which the scene\n"
+        "                  fits). Balls between grid points are rounded to the safe side\n"
+        "  --json          print one JSON object instead of text\n"
+        "  --svg FILE      draw the answer: the region that the object's pivot can reach, or its path\n"
+        "  --quiet         text: the verdict only; no progress, no warnings\n"
+        "  --help          this text\n"
+        "\n"
+        "The first line of the text is the verdict alone. The JSON object has verdict, reason, dim, unit,\n"
+        "start, goal, level, cells, slices, gluings, steps, balls_inserted, peak_bytes, seconds, pivot and\n"
+        "path. Pairs are [inner, outer]. A path is a list of poses like POSE; from each to the next the\n"
+        "object moves on a straight line without turning, or turns the shorter way about its point pivot.\n"
+        "Progress is shown on standard error when that is a terminal.\n"
+        "\n"
+        "exit status: 0 for any verdict, 2 for bad input (file:line: what is wrong), 3 when memory was too\n"
+        "small (says how much was needed).\n"
+        "\n"
+        "example:\n"
+        "  cage prove --object examples/walls/plus.xyzr --obstacles examples/walls/walls_R4.xyzr \\\n"
+        "             --start 185,195,45 --svg chamber.svg\n",
+        CAGE_LEVEL_MAX_2D, (long)limits.max_level, (long)limits.max_cells);
+}
+
+/* ---- options -------------------------------------------------------------------------------------- */
+
+/* Where the value of that option goes, null if there is no such option. */
+static const char **value_slot(options *given, const char *name, size_t length)
+{
+    const struct {
+        const char *name;
+        const char **slot;
+    } known[] = {
+        { "--object", &given->object },       { "--obstacles", &given->obstacles },
+        { "--start", &given->start },         { "--goal", &given->goal },
+        { "--svg", &given->svg },             { "--side", &given->side },
+        { "--max-level", &given->max_level }, { "--max-cells", &given->max_cells },
+        { "--memory", &given->memory },       { "--unit", &given->unit },
+    };
+    size_t i;
+
+    for (i = 0; i < sizeof known / sizeof known[0]; i++)
+        if (strlen(known[i].name) == length && memcmp(known[i].name, name, length) == 0)
+            return known[i].slot;
+    return NULL;
+}
+
+/* "--name value" or "--name=value". */
+static int read_options(int argc, char **argv, options *given, host_error *error)
+{
+    int i;
+
+    memset(given, 0, sizeof *given);
+    for (i = 1; i < argc; i++) {
+        size_t length = strcspn(argv[i], "=");
+        const char **slot = value_slot(given, argv[i], length);
+
+        if (strcmp(argv[i], "--json") == 0)
+            given->json = 1;
+        else if (strcmp(argv[i], "--quiet") == 0)
+            given->quiet = 1;
+        else if (slot == NULL)
+            return host_fail(error, HOST_BAD_INPUT, "'%.100s' is not an option of cage prove (see cage prove --help)",
+                             argv[i]);
+        else if (argv[i][length] == '=')
+            *slot = argv[i] + length + 1;
+        else if (i + 1 == argc)
+            return host_fail(error, HOST_BAD_INPUT, "%s needs a value", argv[i]);
+        else
+            *slot = argv[++i];
+    }
+    if (given->object == NULL || given->obstacles == NULL || given->start == NULL)
+        return host_fail(error, HOST_BAD_INPUT, "%s is missing (see cage prove --help)",
+                         given->object == NULL ? "--object" : given->obstacles == NULL ? "--obstacles" : "--start");
+    return HOST_OK;
+}
+
+/* Puts the option's name before what was wrong with its value. */
+static int blame(host_error *error, const char *option, int code)
+{
+    host_error why = *error;
+
+    return code == HOST_OK ? code : host_fail(error, code, "%s: %.900s", option, why.text);
+}
+
+static int read_limits(const options *given, int32_t dim, cage_limits *limits, host_error *error)
+{
+    int code = HOST_OK;
+
+    cage_limits_default(limits, dim);
+    limits->side = CAGE_SIDE_BOTH;
+    if (given->side != NULL && strcmp(given->side, "inner") == 0)
+        limits->side = CAGE_SIDE_INNER;
+    else if (given->side != NULL && strcmp(given->side, "outer") == 0)
+        limits->side = CAGE_SIDE_OUTER;
+    else if (given->side != NULL && strcmp(given->side, "both") != 0)
+        return host_fail(error, HOST_BAD_INPUT, "--side: '%.100s' is none of both, inner, outer", given->side);
+    if (given->max_level != NULL)
+        code = blame(error, "--max-level",
+                     host_parse_integer(given->max_level, 0, CAGE_LEVEL_MAX_2D, &limits->max_level, error));
+    if (code == HOST_OK && given->max_cells != NULL)
+        code = blame(error, "--max-cells",
+                     host_parse_integer(given->max_cells, 2, INT32_MAX, &limits->max_cells, error));
+    return code;
+}
+
+/* ---- input ---------------------------------------------------------------------------------------- */
+
+/* The dimension on which all parts agree; a file without balls fits any. */
+static int agree_on_dimension(host_query *query, host_error *error)
+{
+    const int32_t object = query->object.dim, obstacles = query->obstacles.dim;
+
+    if (object != 0 && obstacles != 0 && object != obstacles)
+        return host_fail(error, HOST_BAD_INPUT,
+                         "the object has %d dimensions and the obstacles have %d", (int)object, (int)obstacles);
+    query->dim = object != 0 ? object : obstacles != 0 ? obstacles : query->start.dim;
+    if (query->start.dim != query->dim || (query->has_goal && query->goal.dim != query->dim))
+        return host_fail(error, HOST_BAD_INPUT, "%s: the balls have %d dimensions, their poses are %s",
+                         query->start.dim != query->dim ? "--start" : "--goal", (int)query->dim,
+                         query->dim == 2 ? "x,y,degrees" : "x,y,z,qw,qx,qy,qz");
+    return HOST_OK;
+}
+
+static int read_query(const options *given, host_query *query, host_error *error)
+{
+    int code = blame(error, "--start", host_parse_pose(given->start, &query->start, error));
+
+    query->has_goal = given->goal != NULL;
+    if (code == HOST_OK && query->has_goal)
+        code = blame(error, "--goal", host_parse_pose(given->goal, &query->goal, error));
+    if (code == HOST_OK)
+        code = host_read_balls(given->object, &query->object, error);
+    if (code == HOST_OK)
+        code = host_read_balls(given->obstacles, &query->obstacles, error);
+    if (code == HOST_OK)
+        code = agree_on_dimension(query, error);
+    return code;
+}
+
+static void warn_empty(const options *given, const host_query *query)
+{
+    if (given->quiet)
+        return;
+    if (query->object.count == 0)
+        (void)fprintf(stderr, "cage: warning: %s has no balls\n", given->object);
+    if (query->obstacles.count == 0)
+        (void)fprintf(stderr, "cage: warning: %s has no balls\n", given->obstacles);
+}
+
+/* ---- the proof ------------------------------------------------------------------------------------ */
+
+static double now(void)
+{
+    struct timespec time;
+
+    (void)clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
+}
+
+static void show_progress(const cage_result *result, double seconds)
+{
+    (void)fprintf(stderr, "\r%6.1f s  level %ld, %ld cells, %ld + %ld slices, %.0f MiB ", seconds,
+                  (long)result->level, (long)result->cells, (long)result->slices[0], (long)result->slices[1],
+                  (double)result->peak_bytes / (double)MIB);
+    (void)fflush(stderr);
+}
+
+/* Runs to the end. Returns cage_prove_run's last answer. */
+static int32_t run_proof(cage_proof *proof, int progress, double begun)
+{
+    double shown = begun;
+    int32_t answer;
+
+    while ((answer = cage_prove_run(proof, STEPS_A_TURN)) == 0)
+        if (progress && now() - shown > 0.1) {
+            shown = now();
+            show_progress(cage_prove_result(proof), shown - begun);
+        }
+    if (progress && shown > begun)
+        (void)fprintf(stderr, "\r%78s\r", "");
+    return answer;
+}
+
+/* One attempt in a block of that size: CAGE_OK, or an error; *needed is then a block that gets further. */
+static int32_t attempt(host_answer *answer, void *block, size_t bytes, int progress, uint64_t *needed)
+{
+    const host_grid *grid = answer->grid;
+    double begun = now();
+    int32_t state;
+
+    answer->proof = NULL;
+    state = cage_prove_begin(&answer->proof, &grid->scene, &grid->start,
+                             answer->query->has_goal ? &grid->goal : NULL, answer->limits, block, bytes);
+    if (state == CAGE_OK) {
+        state = run_proof(answer->proof, progress, begun);
+        answer->result = cage_prove_result(answer->proof);
+        *needed = answer->result->needed_bytes;
+    }
+    answer->seconds = now() - begun;
+    return state < 0 ? state : CAGE_OK;
+}
+
+/* Proves in a block of the size given, or (bytes null) in one that doubles until it is large enough.
+ * The block is the caller's to free, whatever the outcome. */
+static int prove(host_answer *answer, const size_t *bytes, int progress, void **block, host_error *error)
+{
+    const size_t wanted = cage_prove_size(&answer->grid->scene, answer->limits);
+    size_t size = bytes != NULL ? *bytes : wanted > FIRST_BLOCK ? wanted : FIRST_BLOCK;
+
+    for (;;) {
+        uint64_t needed = wanted;
+        int32_t state;
+
+        *block = malloc(size > 0 ? size : 1);
+        if (*block == NULL)
+            return host_fail(error, HOST_MEMORY, "memory: a block of %zu bytes was needed and is not to be had", size);
+        state = attempt(answer, *block, size, progress, &needed);
+        if (state == CAGE_OK)
+            return HOST_OK;
+        if (state != CAGE_ERROR_MEMORY)
+            return host_fail(error, HOST_BAD_INPUT, "the query is not accepted: %.200s", cage_error_text(state));
+        if (needed <= size)
+            needed = (uint64_t)size + 1;
+        if (bytes != NULL || size > LARGEST_BLOCK / 2 || needed > LARGEST_BLOCK)
+            return host_fail(error, HOST_MEMORY,
+                             "memory: %zu bytes were too few; at least %llu are needed (--memory %llu)", size,
+                             (unsigned long long)needed, (unsigned long long)needed);
+        free(*block);
+        size = needed > 2 * size ? (size_t)needed : 2 * size;
+    }
+}
+
+/* ---- the answer ----------------------------------------------------------------------------------- */
+
+static int check_path(const host_answer *answer, host_error *error)
+{
+    const cage_result *result = answer->result;
+    const host_grid *grid = answer->grid;
+
+    if (result->verdict != CAGE_FREE && result->verdict != CAGE_CONNECTED)
+        return HOST_OK;
+    if (cage_path_check(&grid->scene, &grid->start, answer->query->has_goal ? &grid->goal : NULL, result->pivot,
+                        result->path, result->path_count) == 1)
+        return HOST_OK;
+    return host_fail(error, HOST_BROKEN,
+                     "the path found does not pass the independent check. This is a bug; please report the input");
+}
+
+static int show_answer(const options *given, const host_answer *answer, host_error *error)
+{
+    int code = check_path(answer, error);
+
+    if (code != HOST_OK)
+        return code;
+    if (given->json)
+        host_report_json(stdout, answer);
+    else if (given->quiet)
+        (void)printf("%s\n", cage_verdict_text(answer->result->verdict));
+    else
+        host_report_text(stdout, answer);
+    return given->svg != NULL ? host_write_svg(given->svg, answer, error) : HOST_OK;
+}
+
+static int run(const options *given, host_query *query, host_grid *grid, void **block, host_error *error)
+{
+    host_answer answer;
+    cage_limits limits;
+    double unit = 0;
+    size_t bytes = 0;
+    int progress = !given->quiet && isatty(STDERR_FILENO);
+    int code = HOST_OK;
+
+    if (given->unit != NULL)
+        code = blame(error, "--unit", host_parse_unit(given->unit, &unit, error));
+    if (code == HOST_OK && given->memory != NULL)
+        code = blame(error, "--memory", host_parse_bytes(given->memory, &bytes, error));
+    if (code == HOST_OK)
+        code = read_query(given, query, error);
+    if (code == HOST_OK)
+        code = read_limits(given, query->dim, &limits, error);
+    if (code == HOST_OK)
+        code = host_to_grid(query, unit, grid, error);
+    if (code != HOST_OK)
+        return code;
+    warn_empty(given, query);
+    memset(&answer, 0, sizeof answer);
+    answer.query = query;
+    answer.grid = grid;
+    answer.limits = &limits;
+    code = prove(&answer, given->memory != NULL ? &bytes : NULL, progress, block, error);
+    return code == HOST_OK ? show_answer(given, &answer, error) : code;
+}
+
+int host_prove(int argc, char **argv)
+{
+    options given;
+    host_query query;
+    host_grid grid;
+    host_error error;
+    void *block = NULL;
+    int code;
+
+    memset(&query, 0, sizeof query);
+    memset(&grid, 0, sizeof grid);
+    code = read_options(argc, argv, &given, &error);
+    if (code == HOST_OK)
+        code = run(&given, &query, &grid, &block, &error);
+    if (code != HOST_OK)
+        (void)fprintf(stderr, "%s%s\n", error.located ? "" : "cage: ", error.text);
+    free(block);
+    host_free_grid(&grid);
+    host_free_balls(&query.object);
+    host_free_balls(&query.obstacles);
+    return code;
+}

@@ -1,0 +1,235 @@
+/* report.c: an answer as sentences, and as one JSON object. */
+#include <math.h>
+
+#include "host.h"
+
+/* ---- text ---------------------------------------------------------------------------------------- */
+
+static const char *verdict_sentence(const cage_result *result)
+{
+    switch (result->verdict) {
+    case CAGE_CAGED: return "Proved: no path leads from the start to arbitrarily far away.";
+    case CAGE_DISCONNECTED: return "Proved: no path joins start and goal.";
+    case CAGE_FREE: return "Proved by a path: the object can leave.";
+    case CAGE_CONNECTED: return "Proved by a path: the object gets from start to goal.";
+    case CAGE_IN_COLLISION:
+        return result->reason == CAGE_REASON_GOAL ? "The goal itself collides." : "The start itself collides.";
+    default: return "Not decided.";
+    }
+}
+
+/* What to try when the answer is UNDEFINED. */
+static const char *advice(const cage_result *result)
+{
+    switch (result->reason) {
+    case CAGE_REASON_LEVEL: return " A larger --max-level may decide it.";
+    case CAGE_REASON_CELLS: return " A larger --max-cells may decide it.";
+    case CAGE_REASON_SIDE: return " The other --side, or both, may decide it.";
+    default: return "";
+    }
+}
+
+static void print_pose(FILE *out, const host_pose *pose)
+{
+    if (pose->dim == 2)
+        (void)fprintf(out, "%.10g,%.10g,%.8g", pose->x[0], pose->x[1], pose->degrees);
+    else
+        (void)fprintf(out, "%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g", pose->x[0], pose->x[1], pose->x[2],
+                      pose->q[0], pose->q[1], pose->q[2], pose->q[3]);
+}
+
+/* The pose on the grid, and by how much it differs from the one asked for. */
+static void print_query_pose(FILE *out, const char *name, const cage_pose *pose, const host_pose *asked,
+                             const host_grid *grid)
+{
+    host_pose used;
+    double x, y, z;
+
+    host_from_grid(pose, NULL, asked->dim, grid->unit, &used);
+    x = used.x[0] - asked->x[0];
+    y = used.x[1] - asked->x[1];
+    z = used.x[2] - asked->x[2];
+    (void)fprintf(out, "%s ", name);
+    print_pose(out, &used);
+    if (x == 0 && y == 0 && z == 0)
+        (void)fprintf(out, "\n");
+    else
+        (void)fprintf(out, " (on the grid, %.2g from where asked)\n", hypot(hypot(x, y), z));
+}
+
+static void print_unit(FILE *out, const host_grid *grid)
+{
+    int exponent;
+    double fraction = frexp(grid->unit, &exponent);
+
+    (void)fprintf(out, "Unit    %.6g", grid->unit);
+    if (fraction == 0.5)
+        (void)fprintf(out, " = 2^%d", exponent - 1);
+    if (grid->rounded == 0)
+        (void)fprintf(out, "; the grid holds every ball exactly.\n");
+    else
+        (void)fprintf(out, "; %ld balls rounded, each by less than 3 units and to the safe side.\n",
+                      (long)grid->rounded);
+    if (grid->dropped > 0)
+        (void)fprintf(out, "        %ld balls are too small for this grid: proofs of CAGED and DISCONNECTED go without.\n",
+                      (long)grid->dropped);
+}
+
+static void print_side(FILE *out, const cage_result *result, int side)
+{
+    (void)fprintf(out, "%s  %ld slices, %ld gluings (%ld by a triangulation of their own), %ld components reached\n",
+                  side == 0 ? "Inner " : "Outer ", (long)result->slices[side], (long)result->gluings[side],
+                  (long)result->mixtures[side], (long)result->reached[side]);
+}
+
+static void print_work(FILE *out, const host_answer *answer)
+{
+    const cage_result *result = answer->result;
+    long long balls = (long long)(result->balls[0] + result->balls[1]);
+    long long inserted = (long long)(result->inserted[0] + result->inserted[1]);
+    int side;
+
+    (void)fprintf(out, "Search  %ld cells of rotations, the finest of level %ld", (long)result->cells,
+                  (long)result->level);
+    if (answer->query->dim == 2)
+        (void)fprintf(out, " (about %.2g degrees wide)", ldexp(180, -(int)result->level));
+    (void)fprintf(out, "\n");
+    for (side = 0; side < 2; side++)
+        if (result->slices[side] > 0)
+            print_side(out, result, side);
+    (void)fprintf(out, "Work    %lld steps, %lld of %lld balls triangulated, %.1f MiB, %.3f s\n",
+                  (long long)result->steps, inserted, balls, (double)result->peak_bytes / 1048576,
+                  answer->seconds);
+}
+
+static void print_pivot(FILE *out, const host_answer *answer)
+{
+    const int32_t *pivot = answer->result->pivot;
+    double unit = answer->grid->unit;
+
+    (void)fprintf(out, "%.10g,%.10g", pivot[0] * unit, pivot[1] * unit);
+    if (answer->query->dim == 3)
+        (void)fprintf(out, ",%.10g", pivot[2] * unit);
+}
+
+void host_report_text(FILE *out, const host_answer *answer)
+{
+    const cage_result *result = answer->result;
+    const host_query *query = answer->query;
+
+    (void)fprintf(out, "%s\n\n%s\n", cage_verdict_text(result->verdict), verdict_sentence(result));
+    (void)fprintf(out, "Reason  %s.%s\n", cage_reason_text(result->reason), advice(result));
+    print_query_pose(out, "Start  ", &answer->grid->start, &query->start, answer->grid);
+    if (query->has_goal)
+        print_query_pose(out, "Goal   ", &answer->grid->goal, &query->goal, answer->grid);
+    if (result->path_count > 0) {
+        (void)fprintf(out, "Path    %ld poses, turning about the object's point ", (long)result->path_count);
+        print_pivot(out, answer);
+        (void)fprintf(out, "; checked again, apart from the search\n");
+    }
+    print_unit(out, answer->grid);
+    if (result->verdict != CAGE_IN_COLLISION)
+        print_work(out, answer);
+}
+
+/* ---- JSON ---------------------------------------------------------------------------------------- */
+
+static void json_string(FILE *out, const char *name, const char *text)
+{
+    (void)fprintf(out, "  \"%s\": \"", name);
+    for (; *text != '\0'; text++)
+        if (*text == '"' || *text == '\\')
+            (void)fprintf(out, "\\%c", *text);
+        else if ((unsigned char)*text < 0x20)
+            (void)fprintf(out, "\\u%04x", (unsigned)(unsigned char)*text);
+        else
+            (void)putc(*text, out);
+    (void)fprintf(out, "\",\n");
+}
+
+static void json_numbers(FILE *out, const double *number, int count)
+{
+    int i;
+
+    (void)fprintf(out, "[");
+    for (i = 0; i < count; i++)
+        (void)fprintf(out, "%s%.17g", i > 0 ? ", " : "", number[i] + 0.0); /* no -0 */
+    (void)fprintf(out, "]");
+}
+
+static void json_pose(FILE *out, const host_pose *pose)
+{
+    double value[7];
+    int k;
+
+    for (k = 0; k < 3; k++)
+        value[k] = pose->x[k];
+    for (k = 0; k < 4; k++)
+        value[3 + k] = pose->q[k];
+    if (pose->dim == 2)
+        value[2] = pose->degrees;
+    json_numbers(out, value, pose->dim == 2 ? 3 : 7);
+}
+
+static void json_grid_pose(FILE *out, const char *name, const cage_pose *pose, const host_answer *answer)
+{
+    host_pose used;
+
+    host_from_grid(pose, NULL, answer->query->dim, answer->grid->unit, &used);
+    (void)fprintf(out, "  \"%s\": ", name);
+    json_pose(out, &used);
+    (void)fprintf(out, ",\n");
+}
+
+/* Counts of the two sides: [inner, outer]. */
+static void json_sides(FILE *out, const char *name, int64_t inner, int64_t outer)
+{
+    (void)fprintf(out, "  \"%s\": [%lld, %lld],\n", name, (long long)inner, (long long)outer);
+}
+
+static void json_path(FILE *out, const host_answer *answer)
+{
+    const cage_result *result = answer->result;
+    int32_t i;
+
+    (void)fprintf(out, "  \"path\": [");
+    for (i = 0; i < result->path_count; i++) {
+        host_pose pose;
+
+        host_from_grid(&result->path[i], result->pivot, answer->query->dim, answer->grid->unit, &pose);
+        (void)fprintf(out, "%s\n    ", i > 0 ? "," : "");
+        json_pose(out, &pose);
+    }
+    (void)fprintf(out, "%s]\n", result->path_count > 0 ? "\n  " : "");
+}
+
+void host_report_json(FILE *out, const host_answer *answer)
+{
+    const cage_result *result = answer->result;
+    double pivot[3];
+    int k;
+
+    for (k = 0; k < 3; k++)
+        pivot[k] = result->pivot[k] * answer->grid->unit;
+    (void)fprintf(out, "{\n");
+    json_string(out, "verdict", cage_verdict_text(result->verdict));
+    json_string(out, "reason", cage_reason_text(result->reason));
+    (void)fprintf(out, "  \"dim\": %d,\n  \"unit\": %.17g,\n", (int)answer->query->dim, answer->grid->unit);
+    json_grid_pose(out, "start", &answer->grid->start, answer);
+    if (answer->query->has_goal)
+        json_grid_pose(out, "goal", &answer->grid->goal, answer);
+    else
+        (void)fprintf(out, "  \"goal\": null,\n");
+    (void)fprintf(out, "  \"level\": %ld,\n  \"cells\": %ld,\n", (long)result->level, (long)result->cells);
+    json_sides(out, "slices", result->slices[0], result->slices[1]);
+    json_sides(out, "gluings", result->gluings[0], result->gluings[1]);
+    (void)fprintf(out, "  \"steps\": %lld,\n", (long long)result->steps);
+    json_sides(out, "balls_inserted", result->inserted[0], result->inserted[1]);
+    (void)fprintf(out, "  \"peak_bytes\": %llu,\n  \"seconds\": %.6f,\n",
+                  (unsigned long long)result->peak_bytes, answer->seconds);
+    (void)fprintf(out, "  \"pivot\": ");
+    json_numbers(out, pivot, answer->query->dim);
+    (void)fprintf(out, ",\n");
+    json_path(out, answer);
+    (void)fprintf(out, "}\n");
+}

@@ -1,0 +1,205 @@
+/* path: decomposable path along the outer way: translations inside a slice, turns between slices, each step certified.
+ *
+ * Inside a slice the way runs from simplex to simplex of one component: the segment between the orthocentres of two free neighbours
+ * is free, and so is that from a free point to the orthocentre of its simplex. Way points are rounded to the grid and the
+ * legs certified again (check.h), the longest that are clear taken first. */
+#include "check.h"
+#include "proof.h"
+
+enum { FAR_2D = 1 << 29, FAR_3D = 1 << 25 };
+
+/* Directions in which the sentinels lie from the centre of their simplex: from a point that is nearest to a sentinel, the
+ * ray in its direction is free. */
+static const int32_t RAY_2D[3][3] = {{-3, -2, 0}, {3, -2, 0}, {0, 1, 0}};
+static const int32_t RAY_3D[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}};
+
+struct point {
+    int32_t x[3];
+};
+
+void cage_path_begin(struct cage_proof *proof)
+{
+    size_t room = cage_arena_room(&proof->arena, sizeof *proof->path);
+    proof->path_room = room > INT32_MAX ? INT32_MAX : (int32_t)room;
+    proof->path = (cage_pose *)(void *)(proof->arena.base + proof->arena.used);
+    proof->path_count = 0;
+    proof->way->next_open = NULL;
+    struct cage_node *node = proof->way;
+    for (; node->from; node = node->from)
+        node->from->next_open = node;
+    proof->leg = node;
+}
+
+/* The orthocentre of a simplex, rounded; false if it is too far away to be a way point. */
+static bool centre_of(const struct cage_triangulation *t, int32_t s, struct point *out)
+{
+    const struct cage_site *v[4];
+    struct cage_centre centre;
+    int64_t far = t->dim == 2 ? FAR_2D : FAR_3D;
+    cage_simplex_sites(t, s, v);
+    cage_orthocentre(t->dim, v, &centre);
+    const int32_t base[3] = {centre.base->x, centre.base->y, centre.base->z};
+    for (int32_t k = 0; k < 3; k++) {
+        int64_t at = base[k] + cage_i128_nearest(centre.offset[k], centre.denominator, 4 * far);
+        if (at < -far || at > far)
+            return false;
+        out->x[k] = (int32_t)at;
+    }
+    return true;
+}
+
+/* Breadth first through one component, from simplex s to `to` (or any with a sentinel if -1), by simplices whose orthocentres
+ * are near enough. from[]: the simplex each was reached from. Returns the last one or -1. */
+static int32_t route(const struct cage_slice *slice, int32_t s, int32_t to, int32_t *from, int32_t *queue)
+{
+    const struct cage_triangulation *t = &slice->t;
+    int32_t count = 1, label = slice->label[s];
+    struct point unused;
+    for (int32_t i = 0; i < t->simplices; i++)
+        from[i] = -1;
+    queue[0] = s;
+    from[s] = s;
+    for (int32_t n = 0; n < count; n++) {
+        int32_t here = queue[n];
+        if (to >= 0 ? here == to : cage_simplex_outer(t, here) && centre_of(t, here, &unused))
+            return here;
+        if (here != s && !centre_of(t, here, &unused))
+            continue;
+        for (int32_t i = 0; i <= t->dim; i++) {
+            int32_t next = t->simplex[here].twin[i] >> 2;
+            if (t->simplex[here].twin[i] == CAGE_HULL || from[next] >= 0 || slice->label[next] != label || cage_component_wall(t, here, i))
+                continue;
+            from[next] = here;
+            queue[count++] = next;
+        }
+    }
+    return -1;
+}
+
+/* From the orthocentre of a simplex with a sentinel, straight out until the object is beyond all obstacles. */
+static struct point beyond(const struct cage_proof *proof, const struct cage_triangulation *t, int32_t s, struct point from)
+{
+    int32_t sentinel = 0;
+    for (int32_t i = 0; i <= t->dim; i++)
+        if (t->simplex[s].v[i] <= t->dim)
+            sentinel = t->simplex[s].v[i];
+    const int32_t *ray = t->dim == 2 ? RAY_2D[sentinel] : RAY_3D[sentinel];
+    int32_t axis = ray[0] ? 0 : 1, low, high, size = cage_check_size(&proof->scene, proof->result.pivot);
+    cage_check_extent(&proof->scene, axis, &low, &high);
+    /* Obstacles and object are within CAGE_REACH, the point within FAR: the sums stay below 2^30 in the plane. */
+    int64_t missing = low > high ? 0 : ray[axis] > 0 ? (int64_t)high + size - from.x[axis] : (int64_t)from.x[axis] - (low - size);
+    int64_t pace = ray[axis] > 0 ? ray[axis] : -ray[axis], times = missing > 0 ? (missing + pace - 1) / pace : 0;
+    for (int32_t k = 0; k < 3; k++)
+        from.x[k] += (int32_t)(ray[k] * times);
+    return from;
+}
+
+static bool append(struct cage_proof *proof, const int32_t x[3], const int32_t q[4])
+{
+    if (proof->path_count == proof->path_room)
+        return false;
+    cage_pose *pose = &proof->path[proof->path_count++];
+    for (int32_t k = 0; k < 3; k++)
+        pose->x[k] = x[k];
+    for (int32_t k = 0; k < 4; k++)
+        pose->q[k] = q[k];
+    return true;
+}
+
+/* Append the way points after the first, leaving out those that a clear leg can pass by. */
+static int32_t append_way(struct cage_proof *proof, const struct point *way, int32_t count, const int32_t q[4])
+{
+    for (int32_t at = 0; at + 1 < count;) {
+        int32_t to = count - 1;
+        while (!cage_check_leg(&proof->scene, proof->result.pivot, q, way[at].x, way[to].x, 0)) {
+            if (to == at + 1)
+                return CAGE_PATH_FAILED;
+            to = at + (to - at) / 2;
+        }
+        if (!append(proof, way[to].x, q))
+            return CAGE_ERROR_MEMORY;
+        at = to;
+    }
+    return CAGE_OK;
+}
+
+/* The leg inside one slice: from enter to leave, or out (leave null). */
+static int32_t append_leg(struct cage_proof *proof, const struct cage_slice *slice, const int32_t q[4], const int32_t enter[3],
+                          const int32_t *leave)
+{
+    const struct cage_triangulation *t = &slice->t;
+    struct cage_arena *scratch = &proof->scratch;
+    int32_t *from = cage_arena_take(scratch, (size_t)t->simplices, sizeof *from);
+    int32_t *queue = cage_arena_take(scratch, (size_t)t->simplices, sizeof *queue);
+    struct point *way = cage_arena_take(scratch, (size_t)t->simplices + 3, sizeof *way);
+    if (!from || !queue || !way)
+        return CAGE_ERROR_MEMORY;
+    int32_t first = cage_delaunay_locate(t, enter, 0), last = leave ? cage_delaunay_locate(t, leave, first) : -1;
+    last = route(slice, first, last, from, queue);
+    if (last < 0)
+        return CAGE_PATH_FAILED;
+
+    int32_t count = 0, end = t->simplices + 3; /* filled from the end */
+    for (int32_t s = last;; s = from[s]) {
+        struct point centre;
+        if (centre_of(t, s, &centre)) {
+            if (s == last && !leave)
+                way[end - ++count] = beyond(proof, t, s, centre);
+            else if (s == last)
+                for (int32_t k = 0, at = end - ++count; k < 3; k++)
+                    way[at].x[k] = leave[k];
+            way[end - ++count] = centre;
+        } else if (s == last) {
+            if (!leave)
+                return CAGE_PATH_FAILED;
+            for (int32_t k = 0, at = end - ++count; k < 3; k++)
+                way[at].x[k] = leave[k];
+        }
+        if (s == first)
+            break;
+    }
+    for (int32_t k = 0, at = end - ++count; k < 3; k++)
+        way[at].x[k] = enter[k];
+    return append_way(proof, &way[end - count], count, q);
+}
+
+int32_t cage_path_step(struct cage_proof *proof)
+{
+    struct cage_node *node = proof->leg, *next = node->next_open;
+    const int32_t *q = proof->graph.cell[node->cell].rotations.q;
+    const int32_t *enter = node->via ? node->via->x : proof->outer_at[proof->origin];
+    const int32_t *leave = next ? next->via->x : proof->graph.goal ? proof->outer_at[1 - proof->origin] : NULL;
+    const struct cage_slice *slice;
+    int32_t error = cage_proof_slice(proof, CAGE_OUTER, node->cell, &slice);
+    if (error != CAGE_OK)
+        return error;
+    if (!node->via && !append(proof, proof->at[proof->origin], q))
+        return CAGE_ERROR_MEMORY;
+    if (!append(proof, enter, q))
+        return CAGE_ERROR_MEMORY;
+    size_t mark = proof->scratch.used;
+    error = append_leg(proof, slice, q, enter, leave);
+    cage_arena_release(&proof->scratch, mark);
+    if (error != CAGE_OK)
+        return error;
+    proof->leg = next;
+    if (next && node->cell >= CAGE_CELL_ROOT && next->cell >= CAGE_CELL_ROOT) {
+        int32_t common[4];
+        proof->graph.fibre->common(&proof->graph.cell[node->cell].cell, &proof->graph.cell[next->cell].cell, common);
+        if (!append(proof, leave, common))
+            return CAGE_ERROR_MEMORY;
+    }
+    if (next)
+        return 0;
+    if (proof->graph.goal && !append(proof, proof->at[1 - proof->origin], q))
+        return CAGE_ERROR_MEMORY;
+    for (int32_t i = 0, k = proof->path_count - 1; proof->origin == CAGE_CELL_GOAL && i < k; i++, k--) {
+        cage_pose pose = proof->path[i];
+        proof->path[i] = proof->path[k];
+        proof->path[k] = pose;
+    }
+    return cage_path_check(&proof->scene, &proof->pose[0], proof->graph.goal ? &proof->pose[1] : NULL, proof->result.pivot, proof->path,
+                           proof->path_count) == 1
+               ? 1
+               : CAGE_PATH_FAILED;
+}

@@ -1,0 +1,72 @@
+/* proof: the state of one search, shared by the files that carry it out. */
+#ifndef CAGE_PROOF_H
+#define CAGE_PROOF_H
+
+#include "graph.h"
+
+/* A breadth-first search over the nodes of one side. */
+struct cage_reach {
+    struct cage_node *start;
+    struct cage_node *head, *tail;           /* reached, edges to be followed */
+    struct cage_node *open_head, *open_tail; /* followed, but not glued all around */
+    int32_t number;                          /* of this search: node.seen */
+};
+
+struct cage_proof {
+    struct cage_result result;
+    struct cage_limits limits;
+    struct cage_arena arena;   /* what stays: this struct, the graph, facts, the path */
+    struct cage_arena scratch; /* empty between steps */
+    struct cage_store store;
+    struct cage_graph graph;
+    struct cage_side side[CAGE_SIDES];
+    struct cage_reach reach[CAGE_SIDES];
+    cage_scene scene;           /* the caller's arrays */
+    cage_pose pose[2];          /* start and goal as given */
+    int32_t at[2][3];           /* where the pivot is then, rounded */
+    int32_t outer_at[2][3];     /* a place with some clearance that a free leg leads to: where the outer side begins */
+    int32_t label[CAGE_SIDES][2]; /* components of start and goal, once their slices are built */
+    int32_t phase;
+    int32_t corridor;           /* cells with this number may be explored on the outer side; 0: all may */
+    int32_t corridors;
+    int32_t origin;             /* the cell the search begins at: CAGE_CELL_START or CAGE_CELL_GOAL */
+    int32_t hopeless;           /* a way was banned: no inner proof any more; the reason then */
+    int32_t error;
+    struct cage_node *way;      /* the target that a search has reached */
+    cage_pose *path;
+    int32_t path_room;
+    int32_t path_count;
+    struct cage_node *leg;      /* node of the way whose leg of the path comes next */
+};
+
+/* The slice of a cell, built again if it was dropped. */
+int32_t cage_proof_slice(struct cage_proof *proof, int32_t side, int32_t cell, const struct cage_slice **slice);
+
+/* What a search did: one unit of work (and all the graph search that needs none), or it reached the target (proof->way), or
+ * there is nothing left to do. */
+enum { CAGE_WORKED = 0, CAGE_FOUND = 1, CAGE_CLOSED = 2 };
+
+int32_t cage_search(struct cage_proof *proof, int32_t side);
+
+/* Build the slices of start and goal and locate them: CAGE_FOUND when both are. */
+int32_t cage_search_ends(struct cage_proof *proof, int32_t side);
+
+/* Forget what was reached; facts stay. */
+void cage_search_anew(struct cage_proof *proof, int32_t side);
+
+/* Which cell of the inner way to cut: where the outer search stops, the coarser of the last cell it reached and the first
+ * it did not; else the coarsest. -1: none can be cut. *stop: the node of the way where the outer search stops. */
+int32_t cage_refine_choose(const struct cage_proof *proof, struct cage_node *target, struct cage_node **stop);
+
+/* Without an inner side: the coarsest leaf; -1: none can be cut. */
+int32_t cage_refine_coarsest(const struct cage_proof *proof);
+
+/* Reserve the memory that is left for a path along the outer way, which ends at proof->way. */
+void cage_path_begin(struct cage_proof *proof);
+
+/* Add the leg through one node; 1: that was the last, 0: more to come, CAGE_ERROR_..., or CAGE_PATH_FAILED. */
+int32_t cage_path_step(struct cage_proof *proof);
+
+#define CAGE_PATH_FAILED (-1000)
+
+#endif

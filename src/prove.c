@@ -1,0 +1,345 @@
+/* prove: the lazy, adaptive, two-sided search for one query.
+ *
+ *     START    build the slices of start and goal
+ *     INNER    reach what the inner slices connect: closed without the target is the proof of CAGED / DISCONNECTED
+ *     OUTER    try to reach the target in the outer slices, along the inner way: a path proves FREE / CONNECTED
+ *     REFINE   cut the cell where the two sides part, keep the facts, search again
+ *     PATH     write the path down, leg by leg
+ *
+ * A cell is explored when a search enters it. Facts (slices, gluings of cells that are still leaves) stay; what is reached is
+ * searched anew over them after every refinement. */
+#include "proof.h"
+#include "grid.h"
+
+#include <string.h>
+
+enum { START, INNER, OUTER, REFINE, PATH, DONE };
+
+static int32_t finish(struct cage_proof *proof, int32_t verdict, int32_t reason)
+{
+    proof->result.verdict = verdict;
+    proof->result.reason = reason;
+    proof->phase = DONE;
+    return CAGE_OK;
+}
+
+/* The inner side can do no more: one last outer search over all cells there are. */
+static void last_resort(struct cage_proof *proof, int32_t reason)
+{
+    proof->hopeless = reason;
+    proof->corridor = 0;
+    proof->phase = OUTER;
+    cage_search_anew(proof, CAGE_OUTER);
+}
+
+static int32_t refine(struct cage_proof *proof)
+{
+    bool inner = proof->limits.side & CAGE_SIDE_INNER, outer = proof->limits.side & CAGE_SIDE_OUTER;
+    struct cage_node *stop = NULL;
+    int32_t cell = inner ? cage_refine_choose(proof, proof->way, &stop) : cage_refine_coarsest(proof);
+    if (cell >= 0) {
+        if (!cage_graph_refine(&proof->graph, cell)) {
+            if (!inner || !outer)
+                return finish(proof, CAGE_UNDEFINED, CAGE_REASON_CELLS);
+            last_resort(proof, CAGE_REASON_CELLS);
+            return CAGE_OK;
+        }
+        proof->result.level = proof->graph.level;
+        proof->result.cells = proof->graph.cells - CAGE_CELL_ROOT;
+    } else {
+        /* This way is as fine as it may be. It may be closed all the same, but another may be open. */
+        if (!inner || !outer)
+            return finish(proof, CAGE_UNDEFINED, CAGE_REASON_LEVEL);
+        proof->hopeless = CAGE_REASON_LEVEL;
+        stop->banned = 1;
+    }
+    cage_search_anew(proof, CAGE_INNER);
+    cage_search_anew(proof, CAGE_OUTER);
+    proof->phase = inner ? INNER : OUTER;
+    return CAGE_OK;
+}
+
+/* ---- the phases ----------------------------------------------------------------------------------- */
+
+static int32_t step_start(struct cage_proof *proof)
+{
+    int32_t side = proof->limits.side & CAGE_SIDE_INNER ? CAGE_INNER : CAGE_OUTER;
+    int32_t done = cage_search_ends(proof, side);
+    if (done != CAGE_FOUND)
+        return done;
+    /* A search that begins outside sees everything; one that begins in a narrow place may close soon. */
+    const int32_t *label = proof->label[side];
+    proof->origin = proof->graph.goal && label[CAGE_CELL_START] == CAGE_OUTSIDE && label[CAGE_CELL_GOAL] != CAGE_OUTSIDE;
+    proof->phase = side == CAGE_INNER ? INNER : OUTER;
+    return CAGE_OK;
+}
+
+static int32_t step_inner(struct cage_proof *proof)
+{
+    int32_t done = cage_search(proof, CAGE_INNER);
+    if (done == CAGE_CLOSED) {
+        if (!proof->hopeless)
+            return finish(proof, proof->graph.goal ? CAGE_DISCONNECTED : CAGE_CAGED, CAGE_REASON_CLOSED);
+        last_resort(proof, proof->hopeless);
+        return CAGE_OK;
+    }
+    if (done != CAGE_FOUND)
+        return done;
+    if (!(proof->limits.side & CAGE_SIDE_OUTER)) {
+        proof->phase = REFINE;
+        return CAGE_OK;
+    }
+    proof->corridor = ++proof->corridors;
+    for (const struct cage_node *node = proof->way; node; node = node->from)
+        proof->graph.cell[node->cell].corridor = proof->corridor;
+    proof->phase = OUTER;
+    cage_search_anew(proof, CAGE_OUTER);
+    return CAGE_OK;
+}
+
+static int32_t step_outer(struct cage_proof *proof)
+{
+    struct cage_node *way = proof->way;
+    int32_t done = cage_search(proof, CAGE_OUTER);
+    if (done == CAGE_FOUND) {
+        cage_path_begin(proof);
+        proof->phase = PATH;
+        return CAGE_OK;
+    }
+    proof->way = way;
+    if (done != CAGE_CLOSED)
+        return done;
+    if (proof->hopeless && proof->corridor == 0)
+        return finish(proof, CAGE_UNDEFINED, proof->hopeless);
+    proof->phase = REFINE;
+    return CAGE_OK;
+}
+
+static int32_t step_path(struct cage_proof *proof)
+{
+    int32_t done = cage_path_step(proof);
+    if (done == 1) {
+        proof->result.path = proof->path;
+        proof->result.path_count = proof->path_count;
+        return finish(proof, proof->graph.goal ? CAGE_CONNECTED : CAGE_FREE, CAGE_REASON_PATH);
+    }
+    if (done == CAGE_PATH_FAILED)
+        return finish(proof, CAGE_UNDEFINED, CAGE_REASON_LEVEL);
+    return done;
+}
+
+static int32_t step(struct cage_proof *proof)
+{
+    switch (proof->phase) {
+    case START:
+        return step_start(proof);
+    case INNER:
+        return step_inner(proof);
+    case OUTER:
+        return step_outer(proof);
+    case REFINE:
+        return refine(proof);
+    default:
+        return step_path(proof);
+    }
+}
+
+/* ---- beginning ------------------------------------------------------------------------------------ */
+
+void cage_limits_default(cage_limits *limits, int32_t dim)
+{
+    (void)dim;
+    limits->side = CAGE_SIDE_BOTH;
+    limits->start_level = -1;
+    limits->max_level = 12;
+    limits->max_cells = 16384;
+}
+
+static int32_t limits_check(const cage_limits *limits)
+{
+    if (limits->side < CAGE_SIDE_INNER || limits->side > CAGE_SIDE_BOTH || limits->max_cells < 2)
+        return CAGE_ERROR_ARGUMENT;
+    if (limits->max_level < 0 || limits->max_level > CAGE_LEVEL_MAX_2D)
+        return CAGE_ERROR_ARGUMENT;
+    return limits->start_level < -1 || limits->start_level > limits->max_level ? CAGE_ERROR_ARGUMENT : CAGE_OK;
+}
+
+/* The coarsest level at which the farthest ball of the object moves by less than a collision ball's usual radius: above it the inner
+ * balls shrink to nothing. */
+static int32_t first_level(const struct cage_proof *proof)
+{
+    const struct cage_side *side = &proof->side[CAGE_INNER];
+    int64_t sum = 0;
+    int32_t reach = 0, level = 0;
+    if (side->objects == 0 || side->obstacles == 0)
+        return 0;
+    for (int32_t j = 0; j < side->obstacles; j++)
+        sum += side->obstacle[j].r;
+    int64_t radius = sum / side->obstacles;
+    for (int32_t a = 0; a < side->objects; a++)
+        reach = side->reach[a] > reach ? side->reach[a] : reach;
+    sum = 0;
+    for (int32_t a = 0; a < side->objects; a++)
+        sum += side->object[a].r;
+    radius += sum / side->objects;
+    struct cage_cell cell = {0, 0, {0, 0, 0}};
+    while (level < proof->limits.max_level && cage_displacement(proof->graph.fibre->turn(&cell), reach) >= radius) {
+        proof->graph.fibre->child(&cell, 0, &cell);
+        level++;
+    }
+    while (level > 0 && ((int64_t)proof->graph.fibre->roots << (level + 1)) > proof->graph.capacity)
+        level--;
+    return level;
+}
+
+/* What is left of the block is shared out: a quarter for facts, a quarter to hold slices, half to work in. */
+static void share_out(struct cage_proof *proof)
+{
+    size_t left = proof->arena.size - proof->arena.used, quarter = left / 4 / CAGE_ALIGN * CAGE_ALIGN;
+    unsigned char *at = proof->arena.base + proof->arena.used + quarter;
+    proof->arena.size = proof->arena.used + quarter;
+    cage_store_init(&proof->store, at, quarter);
+    cage_arena_init(&proof->scratch, at + quarter, left - 2 * quarter);
+}
+
+static size_t fixed_bytes(const cage_scene *scene, const cage_limits *limits)
+{
+    size_t objects = (size_t)scene->object.inner_count + (size_t)scene->object.outer_count;
+    return sizeof(struct cage_proof) + objects * (sizeof(cage_ball) + sizeof(int32_t)) +
+           ((size_t)limits->max_cells + CAGE_CELL_ROOT) * sizeof(struct cage_leaf) + 16 * CAGE_ALIGN;
+}
+
+size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits)
+{
+    cage_limits defaults;
+    if (cage_scene_check(scene) != CAGE_OK || scene->dim != 2)
+        return 0;
+    if (!limits) {
+        cage_limits_default(&defaults, scene->dim);
+        limits = &defaults;
+    }
+    if (limits_check(limits) != CAGE_OK)
+        return 0;
+    size_t inner = (size_t)scene->object.inner_count * (size_t)scene->obstacles.inner_count;
+    size_t outer = (size_t)scene->object.outer_count * (size_t)scene->obstacles.outer_count, pairs = inner > outer ? inner : outer;
+    /* A mixture of two slices: 2 pairs balls, at most 4 triangles each while building. */
+    size_t work = 600 * pairs + 32768, facts = 32768 + 64 * (size_t)limits->max_cells;
+    return fixed_bytes(scene, limits) + 4 * (work / 2 > facts ? work / 2 : facts);
+}
+
+/* A block that lets the step that failed for want of memory succeed. */
+static uint64_t memory_needed(const struct cage_proof *proof)
+{
+    size_t quarter = proof->store.size, most = 2 * quarter;
+    if (proof->scratch.needed > proof->scratch.size)
+        most = proof->scratch.needed / 2 + CAGE_ALIGN;
+    else if (proof->arena.needed > proof->arena.size)
+        most = quarter + (proof->arena.needed - proof->arena.size) + CAGE_ALIGN;
+    most = most < quarter + quarter / 2 ? quarter + quarter / 2 : most;
+    return proof->arena.size - quarter + 4 * (uint64_t)most + 16 * CAGE_ALIGN;
+}
+
+static void set_ends(struct cage_proof *proof, const cage_pose *start, const cage_pose *goal)
+{
+    const cage_pose *pose[2] = {start, goal ? goal : start};
+    proof->graph.goal = goal != NULL;
+    memset(proof->graph.cell, 0, CAGE_CELL_ROOT * sizeof *proof->graph.cell);
+    for (int32_t end = 0; end < CAGE_CELL_ROOT; end++) {
+        proof->pose[end] = *pose[end];
+        cage_pose_pivot(pose[end], proof->result.pivot, proof->at[end]);
+        memcpy(proof->graph.cell[end].rotations.q, pose[end]->q, sizeof pose[end]->q);
+        proof->graph.cell[end].parent = -1;
+    }
+    proof->graph.cells = CAGE_CELL_ROOT;
+}
+
+static int32_t begin(struct cage_proof *proof, const cage_pose *start, const cage_pose *goal)
+{
+    const cage_scene *scene = &proof->scene;
+    cage_pivot(&scene->object, proof->result.pivot);
+    for (int32_t i = 0; i < CAGE_SIDES; i++) {
+        int32_t error = cage_side_make(&proof->arena, scene, proof->result.pivot, i == CAGE_INNER ? -1 : 1, &proof->side[i]);
+        if (error != CAGE_OK)
+            return error;
+    }
+    proof->graph.fibre = &cage_so2;
+    proof->graph.arena = &proof->arena;
+    proof->graph.capacity = proof->limits.max_cells + CAGE_CELL_ROOT;
+    proof->graph.cell = cage_arena_take(&proof->arena, (size_t)proof->graph.capacity, sizeof *proof->graph.cell);
+    if (!proof->graph.cell)
+        return CAGE_ERROR_MEMORY;
+    set_ends(proof, start, goal);
+    for (int32_t end = 0; end < CAGE_CELL_ROOT; end++)
+        for (int32_t k = 0; k < 3; k++)
+            if (proof->at[end][k] < -CAGE_REACH_2D || proof->at[end][k] > CAGE_REACH_2D)
+                return CAGE_ERROR_RANGE;
+    int32_t level = proof->limits.start_level < 0 ? first_level(proof) : proof->limits.start_level;
+    if (!cage_graph_init(&proof->graph, level))
+        return CAGE_ERROR_ARGUMENT;
+    proof->result.level = proof->graph.level;
+    proof->result.cells = proof->graph.cells - CAGE_CELL_ROOT;
+    share_out(proof);
+    proof->phase = START;
+    if (cage_collides(scene, start, CAGE_SIDE_INNER) == 1)
+        return finish(proof, CAGE_IN_COLLISION, CAGE_REASON_START);
+    if (goal && cage_collides(scene, goal, CAGE_SIDE_INNER) == 1)
+        return finish(proof, CAGE_IN_COLLISION, CAGE_REASON_GOAL);
+    return CAGE_OK;
+}
+
+int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage_pose *start, const cage_pose *goal,
+                         const cage_limits *limits, void *memory, size_t bytes)
+{
+    if (!proof || !scene || !start || (!memory && bytes))
+        return CAGE_ERROR_ARGUMENT;
+    int32_t error = cage_scene_check(scene);
+    if (error == CAGE_OK)
+        error = cage_pose_check(scene->dim, start);
+    if (error == CAGE_OK && goal)
+        error = cage_pose_check(scene->dim, goal);
+    if (error == CAGE_OK && scene->dim != 2)
+        error = CAGE_ERROR_DIMENSION;
+    cage_limits defaults;
+    cage_limits_default(&defaults, scene->dim);
+    if (error == CAGE_OK)
+        error = limits_check(limits ? limits : &defaults);
+    if (error != CAGE_OK)
+        return error;
+    struct cage_arena arena;
+    cage_arena_init(&arena, memory, bytes);
+    struct cage_proof *made = cage_arena_take(&arena, 1, sizeof *made);
+    if (!made)
+        return CAGE_ERROR_MEMORY;
+    memset(made, 0, sizeof *made);
+    made->arena = arena;
+    made->limits = limits ? *limits : defaults;
+    made->scene = *scene;
+    error = begin(made, start, goal);
+    if (error == CAGE_OK)
+        *proof = made;
+    return error;
+}
+
+/* ---- running -------------------------------------------------------------------------------------- */
+
+int32_t cage_prove_run(cage_proof *proof, int64_t steps)
+{
+    if (!proof)
+        return CAGE_ERROR_ARGUMENT;
+    for (; steps > 0 && proof->phase != DONE && proof->error == CAGE_OK; steps--) {
+        int32_t error = step(proof);
+        proof->result.steps++;
+        if (error < 0)
+            proof->error = error;
+    }
+    size_t used = proof->arena.peak + proof->scratch.peak;
+    proof->result.peak_bytes = used;
+    if (proof->error == CAGE_ERROR_MEMORY)
+        proof->result.needed_bytes = memory_needed(proof);
+    return proof->error != CAGE_OK ? proof->error : proof->phase == DONE;
+}
+
+const cage_result *cage_prove_result(const cage_proof *proof)
+{
+    return &proof->result;
+}

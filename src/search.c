@@ -1,0 +1,236 @@
+/* search: breadth first over the components of one side, building and gluing slices where it comes. */
+#include "check.h"
+#include "proof.h"
+
+static int32_t build(struct cage_proof *proof, int32_t side, int32_t cell, struct cage_held **held)
+{
+    struct cage_slice slice;
+    size_t mark = proof->scratch.used;
+    int32_t error = cage_slice_make(&proof->scratch, &proof->side[side], &proof->graph.cell[cell].rotations, &slice);
+    struct cage_facts *facts = &proof->graph.cell[cell].facts[side];
+    if (error == CAGE_OK && !cage_store_put(&proof->store, &slice, &facts->held)) {
+        proof->scratch.needed = 0;
+        error = CAGE_ERROR_MEMORY;
+    }
+    if (error == CAGE_OK && facts->nodes == 0) {
+        error = cage_graph_add_nodes(&proof->graph, side, cell, slice.regions);
+        proof->result.slices[side]++;
+        proof->result.balls[side] += slice.balls;
+        proof->result.inserted[side] += slice.t.sites - slice.t.dim - 1;
+    }
+    cage_arena_release(&proof->scratch, mark);
+    *held = facts->held;
+    return error;
+}
+
+int32_t cage_proof_slice(struct cage_proof *proof, int32_t side, int32_t cell, const struct cage_slice **slice)
+{
+    struct cage_held *held = proof->graph.cell[cell].facts[side].held;
+    int32_t error = held ? CAGE_OK : build(proof, side, cell, &held);
+    *slice = error == CAGE_OK ? &held->slice : NULL;
+    return error;
+}
+
+/* A path needs common points that are on the grid; without one there is no edge on the outer side. */
+static int32_t keep_exact(const struct cage_slice *c, const struct cage_slice *d, struct cage_touch *touch, int32_t count)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < count; i++)
+        if (cage_slice_locate(c, touch[i].x) == touch[i].k && cage_slice_locate(d, touch[i].x) == touch[i].l)
+            touch[kept++] = touch[i];
+    return kept;
+}
+
+static int32_t glue(struct cage_proof *proof, int32_t side, int32_t a, int32_t b)
+{
+    const struct cage_slice *c, *d;
+    int32_t error = cage_proof_slice(proof, side, a, &c);
+    if (error == CAGE_OK)
+        error = cage_proof_slice(proof, side, b, &d);
+    /* Building b may have dropped a; built again after b, both are the newest. */
+    if (error == CAGE_OK)
+        error = cage_proof_slice(proof, side, a, &c);
+    if (error == CAGE_OK && !proof->graph.cell[b].facts[side].held)
+        error = CAGE_ERROR_MEMORY;
+    if (error != CAGE_OK)
+        return error;
+    size_t mark = proof->scratch.used;
+    struct cage_touch *touch;
+    int32_t count, mixed;
+    error = cage_glue(&proof->scratch, c, d, &touch, &count, &mixed);
+    if (error == CAGE_OK && side == CAGE_OUTER && mixed)
+        count = keep_exact(c, d, touch, count);
+    if (error == CAGE_OK)
+        error = cage_graph_add_gluing(&proof->graph, side, a, b, touch, count);
+    proof->result.gluings[side]++;
+    proof->result.mixtures[side] += mixed;
+    cage_arena_release(&proof->scratch, mark);
+    return error;
+}
+
+static bool is_live(const struct cage_proof *proof, const struct cage_node *node)
+{
+    return proof->graph.cell[node->cell].child == 0;
+}
+
+static bool may_enter(const struct cage_proof *proof, int32_t side, int32_t cell)
+{
+    return side == CAGE_INNER || proof->corridor == 0 || proof->graph.cell[cell].corridor == proof->corridor;
+}
+
+/* The next neighbour of the cell, after `after`, that it is not glued with; -1: none. */
+static int32_t unglued(const struct cage_proof *proof, int32_t side, int32_t cell, int32_t after)
+{
+    int32_t next = cage_graph_neighbour(&proof->graph, cell, after);
+    while (next >= 0 && (!may_enter(proof, side, next) || cage_graph_is_glued(&proof->graph, side, cell, next)))
+        next = cage_graph_neighbour(&proof->graph, cell, next);
+    return next;
+}
+
+static void enqueue(struct cage_reach *reach, struct cage_node *node)
+{
+    if (node->queued)
+        return;
+    node->queued = 1;
+    node->next = NULL;
+    if (reach->head)
+        reach->tail->next = node;
+    else
+        reach->head = node;
+    reach->tail = node;
+}
+
+static void discover(struct cage_proof *proof, int32_t side, struct cage_node *node, struct cage_node *from, const struct cage_edge *via)
+{
+    struct cage_reach *reach = &proof->reach[side];
+    if (node->seen == reach->number || node->banned || !is_live(proof, node))
+        return;
+    node->seen = reach->number;
+    node->from = from;
+    node->via = via;
+    node->next_open = NULL;
+    proof->result.reached[side]++;
+    enqueue(reach, node);
+    if (reach->open_head)
+        reach->open_tail->next_open = node;
+    else
+        reach->open_head = node;
+    reach->open_tail = node;
+}
+
+void cage_search_anew(struct cage_proof *proof, int32_t side)
+{
+    struct cage_reach *reach = &proof->reach[side];
+    while (reach->head) {
+        reach->head->queued = 0;
+        reach->head = reach->head->next;
+    }
+    reach->open_head = NULL;
+    reach->number++;
+    proof->result.reached[side] = 0;
+    if (reach->start)
+        discover(proof, side, reach->start, NULL, NULL);
+}
+
+static bool is_target(const struct cage_proof *proof, int32_t side, const struct cage_node *node)
+{
+    int32_t goal = CAGE_CELL_GOAL - proof->origin;
+    if (!proof->graph.goal)
+        return node->component == CAGE_OUTSIDE;
+    return node->cell == goal && node->component == proof->label[side][goal];
+}
+
+/* Follow known edges as far as they lead. */
+static struct cage_node *follow(struct cage_proof *proof, int32_t side)
+{
+    struct cage_reach *reach = &proof->reach[side];
+    while (reach->head) {
+        struct cage_node *node = reach->head;
+        if (is_target(proof, side, node))
+            return node;
+        reach->head = node->next;
+        node->queued = 0;
+        for (const struct cage_edge *edge = node->edges; edge; edge = edge->next)
+            discover(proof, side, edge->to, node, edge);
+    }
+    return NULL;
+}
+
+static void follow_again(struct cage_proof *proof, int32_t side, int32_t cell)
+{
+    const struct cage_facts *facts = &proof->graph.cell[cell].facts[side];
+    for (int32_t k = 0; k < facts->nodes; k++)
+        if (facts->node[k].seen == proof->reach[side].number)
+            enqueue(&proof->reach[side], &facts->node[k]);
+}
+
+/* The outer side needs some clearance: where start or goal has none, look for a free leg to a place that has. */
+static void locate_end(struct cage_proof *proof, const struct cage_slice *slice, int32_t side, int32_t end)
+{
+    static const int32_t around[8][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    const int32_t *at = proof->at[end], *q = proof->graph.cell[end].rotations.q;
+    int32_t reach = proof->scene.dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
+    int32_t *label = &proof->label[side][end];
+    *label = cage_slice_locate(slice, at);
+    for (int32_t k = 0; k < 3; k++)
+        proof->outer_at[end][k] = side == CAGE_OUTER ? at[k] : proof->outer_at[end][k];
+    for (int32_t size = 16; side == CAGE_OUTER && *label == CAGE_COVERED && size < reach / 4; size *= 4)
+        for (int32_t i = 0; i < 8 && *label == CAGE_COVERED; i++) {
+            const int32_t to[3] = {at[0] + size * around[i][0], at[1] + size * around[i][1], at[2]};
+            bool inside = to[0] >= -reach && to[0] <= reach && to[1] >= -reach && to[1] <= reach;
+            int32_t there = inside ? cage_slice_locate(slice, to) : CAGE_COVERED;
+            if (there == CAGE_COVERED || !cage_check_leg(&proof->scene, proof->result.pivot, q, at, to, 0))
+                continue;
+            *label = there;
+            for (int32_t k = 0; k < 3; k++)
+                proof->outer_at[end][k] = to[k];
+        }
+}
+
+int32_t cage_search_ends(struct cage_proof *proof, int32_t side)
+{
+    for (int32_t end = CAGE_CELL_START; end <= (proof->graph.goal ? CAGE_CELL_GOAL : CAGE_CELL_START); end++)
+        if (proof->graph.cell[end].facts[side].nodes == 0) {
+            const struct cage_slice *slice;
+            int32_t error = cage_proof_slice(proof, side, end, &slice);
+            if (error == CAGE_OK)
+                locate_end(proof, slice, side, end);
+            return error;
+        }
+    return CAGE_FOUND;
+}
+
+int32_t cage_search(struct cage_proof *proof, int32_t side)
+{
+    struct cage_reach *reach = &proof->reach[side];
+    int32_t ends = cage_search_ends(proof, side);
+    if (ends != CAGE_FOUND)
+        return ends;
+    if (!reach->start) {
+        for (int32_t end = 0; end <= (proof->graph.goal ? 1 : 0); end++)
+            if (proof->label[side][end] == CAGE_COVERED)
+                return CAGE_CLOSED;
+        reach->start = &proof->graph.cell[proof->origin].facts[side].node[proof->label[side][proof->origin]];
+        cage_search_anew(proof, side);
+    }
+    for (;;) {
+        proof->way = follow(proof, side);
+        if (proof->way)
+            return CAGE_FOUND;
+        if (!reach->open_head)
+            return CAGE_CLOSED;
+        int32_t cell = reach->open_head->cell, other = unglued(proof, side, cell, -1);
+        if (other < 0) {
+            reach->open_head = reach->open_head->next_open;
+            continue;
+        }
+        const struct cage_slice *slice;
+        if (proof->graph.cell[other].facts[side].nodes == 0)
+            return cage_proof_slice(proof, side, other, &slice);
+        int32_t error = glue(proof, side, cell, other);
+        follow_again(proof, side, cell);
+        follow_again(proof, side, other);
+        return error;
+    }
+}
+

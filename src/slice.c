@@ -1,0 +1,218 @@
+/* slice: object balls, obstacle balls and one cell give collision balls, their triangulation and its components. */
+#include "slice.h"
+#include "grid.h"
+#include "prune.h"
+
+#include <string.h>
+
+static void place(const struct cage_side *side, const struct cage_rotations *rotations, struct cage_part *part)
+{
+    struct cage_rotation rotation;
+    cage_rotation_of(rotations->q, &rotation);
+    for (int32_t a = 0; a < side->objects; a++) {
+        const cage_ball *ball = &side->object[a];
+        const int32_t y[3] = {ball->x, ball->y, ball->z};
+        cage_rotate(&rotation, y, part[a].at);
+        part[a].displacement = cage_displacement(rotations->turn, side->reach[a]);
+        part[a].change = cage_radius_change(part[a].displacement, side->sign);
+    }
+}
+
+/* All collision balls and their parts; a ball whose radius comes out negative is none. Returns their number. */
+static int32_t collide(const struct cage_side *side, const struct cage_part *part, cage_ball *ball, int32_t *of)
+{
+    int32_t count = 0;
+    for (int32_t a = 0; a < side->objects; a++)
+        for (int32_t j = 0; j < side->obstacles; j++) {
+            const cage_ball *x = &side->obstacle[j];
+            int32_t radius = x->r + side->object[a].r + part[a].change;
+            if (radius < 0)
+                continue;
+            cage_ball made = {x->x - part[a].at[0], x->y - part[a].at[1], x->z - part[a].at[2], radius};
+            ball[count] = made;
+            of[count++] = a;
+        }
+    return count;
+}
+
+static int32_t keep(const struct cage_raster *raster, int32_t dim, cage_ball *ball, int32_t *of, int32_t count)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < count; i++)
+        if (cage_raster_keeps(raster, dim, &ball[i])) {
+            ball[kept] = ball[i];
+            of[kept++] = of[i];
+        }
+    return kept;
+}
+
+/* Components of the kept balls that are none of all balls become covered; the others move up. */
+static void drop_phantoms(const struct cage_triangulation *t, const struct cage_raster *raster, struct cage_components *c, int32_t *now)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < c->count; k++) {
+        bool phantom = false;
+        if (k != CAGE_OUTSIDE && raster->used) {
+            const struct cage_site *v[4];
+            struct cage_centre centre;
+            cage_simplex_sites(t, c->deep[k], v);
+            cage_orthocentre(t->dim, v, &centre);
+            phantom = cage_raster_covers(raster, t->dim, &centre);
+        }
+        now[k] = phantom ? CAGE_COVERED : count;
+        if (!phantom)
+            c->deep[count++] = c->deep[k];
+    }
+    c->count = count;
+    for (int32_t s = 0; s < t->simplices; s++)
+        if (c->label[s] >= 0)
+            c->label[s] = now[c->label[s]];
+}
+
+bool cage_slice_clear(const struct cage_slice *slice, const int32_t p[3])
+{
+    for (int32_t i = slice->t.dim + 1; i < slice->t.sites; i++)
+        if (cage_power(&slice->t.site[i], p) <= 0)
+            return false;
+    return true;
+}
+
+int32_t cage_slice_locate(const struct cage_slice *slice, const int32_t p[3])
+{
+    int32_t label = slice->label[cage_delaunay_locate(&slice->t, p, 0)];
+    return label != CAGE_COVERED && cage_slice_clear(slice, p) ? label : CAGE_COVERED;
+}
+
+/* Round the deep orthocentre of a component to the grid; it is known if it still lies in it. */
+static void find_point(const struct cage_slice *slice, int32_t component)
+{
+    struct cage_region *region = &slice->region[component];
+    int32_t dim = slice->t.dim, reach = dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
+    region->known = 0;
+    if (region->deep < 0)
+        return;
+    const struct cage_site *v[4];
+    struct cage_centre centre;
+    cage_simplex_sites(&slice->t, region->deep, v);
+    cage_orthocentre(dim, v, &centre);
+    const int32_t base[3] = {centre.base->x, centre.base->y, centre.base->z};
+    for (int32_t k = 0; k < 3; k++) {
+        int64_t at = base[k] + cage_i128_nearest(centre.offset[k], centre.denominator, (int64_t)1 << 40);
+        if (at < -reach || at > reach)
+            return;
+        region->point[k] = (int32_t)at;
+    }
+    int32_t s = cage_delaunay_locate(&slice->t, region->point, region->deep);
+    region->known = slice->label[s] == component && cage_slice_clear(slice, region->point);
+}
+
+/* The top of the balls' bounding box is off every ball: centres and radii add up to less than CAGE_REACH. */
+static void find_outside_point(const struct cage_slice *slice)
+{
+    int32_t top = 0;
+    for (int32_t i = slice->t.dim + 1; i < slice->t.sites; i++) {
+        int32_t y = slice->t.site[i].y + slice->t.site[i].r + 1;
+        top = y > top ? y : top;
+    }
+    struct cage_region *outside = &slice->region[CAGE_OUTSIDE];
+    outside->known = 1;
+    outside->point[0] = outside->point[2] = 0;
+    outside->point[1] = top;
+}
+
+static size_t padded(size_t bytes) { return (bytes + CAGE_ALIGN - 1) / CAGE_ALIGN * CAGE_ALIGN; }
+
+/* The arrays of a slice in the order in which they are packed. */
+static void array_sizes(const struct cage_slice *s, size_t size[6])
+{
+    size[0] = padded((size_t)s->t.sites * sizeof *s->t.site);
+    size[1] = padded((size_t)s->t.sites * sizeof *s->t.ball);
+    size[2] = padded((size_t)s->t.simplices * sizeof *s->t.simplex);
+    size[3] = padded((size_t)s->t.simplices * sizeof *s->label);
+    size[4] = padded((size_t)s->parts * sizeof *s->part);
+    size[5] = padded((size_t)s->regions * sizeof *s->region);
+}
+
+void cage_slice_pack(const struct cage_slice *slice, void *block, struct cage_slice *out)
+{
+    size_t size[6];
+    unsigned char *at = block;
+    array_sizes(slice, size);
+    *out = *slice;
+    memcpy(at, slice->t.site, (size_t)slice->t.sites * sizeof *slice->t.site);
+    out->t.site = (struct cage_site *)(void *)at;
+    at += size[0];
+    memcpy(at, slice->t.ball, (size_t)slice->t.sites * sizeof *slice->t.ball);
+    out->t.ball = (int32_t *)(void *)at;
+    at += size[1];
+    memcpy(at, slice->t.simplex, (size_t)slice->t.simplices * sizeof *slice->t.simplex);
+    out->t.simplex = (struct cage_simplex *)(void *)at;
+    at += size[2];
+    memcpy(at, slice->label, (size_t)slice->t.simplices * sizeof *slice->label);
+    out->label = (int32_t *)(void *)at;
+    at += size[3];
+    memcpy(at, slice->part, (size_t)slice->parts * sizeof *slice->part);
+    out->part = (struct cage_part *)(void *)at;
+    at += size[4];
+    memcpy(at, slice->region, (size_t)slice->regions * sizeof *slice->region);
+    out->region = (struct cage_region *)(void *)at;
+}
+
+static int32_t make(struct cage_arena *arena, const struct cage_side *side, const struct cage_rotations *rotations,
+                    struct cage_slice *out)
+{
+    size_t pairs = (size_t)side->objects * (size_t)side->obstacles;
+    out->parts = side->objects;
+    out->part = cage_arena_take(arena, (size_t)side->objects, sizeof *out->part);
+    cage_ball *ball = cage_arena_take(arena, pairs, sizeof *ball);
+    int32_t *of = cage_arena_take(arena, pairs, sizeof *of);
+    if (!out->part || !ball || !of)
+        return CAGE_ERROR_MEMORY;
+    place(side, rotations, out->part);
+    int32_t count = collide(side, out->part, ball, of);
+    struct cage_raster raster;
+    int32_t error = cage_raster_make(arena, side->dim, ball, count, &raster);
+    if (error != CAGE_OK)
+        return error;
+    int32_t kept = keep(&raster, side->dim, ball, of, count);
+    out->balls = count;
+    error = cage_delaunay(arena, side->dim, ball, kept, &out->t);
+    if (error != CAGE_OK)
+        return error;
+    for (int32_t i = side->dim + 1; i < out->t.sites; i++)
+        out->t.ball[i] = of[out->t.ball[i]];
+
+    struct cage_components components;
+    error = cage_components(arena, &out->t, &components);
+    if (error != CAGE_OK)
+        return error;
+    int32_t *now = cage_arena_take(arena, (size_t)components.count, sizeof *now);
+    if (!now)
+        return CAGE_ERROR_MEMORY;
+    drop_phantoms(&out->t, &raster, &components, now);
+    out->label = components.label;
+    out->regions = components.count;
+    out->region = cage_arena_take(arena, (size_t)components.count, sizeof *out->region);
+    if (!out->region)
+        return CAGE_ERROR_MEMORY;
+    for (int32_t k = 0; k < components.count; k++) {
+        out->region[k].deep = components.deep[k];
+        if (k != CAGE_OUTSIDE)
+            find_point(out, k);
+    }
+    find_outside_point(out);
+    size_t size[6];
+    array_sizes(out, size);
+    out->bytes = size[0] + size[1] + size[2] + size[3] + size[4] + size[5];
+    return CAGE_OK;
+}
+
+int32_t cage_slice_make(struct cage_arena *arena, const struct cage_side *side, const struct cage_rotations *rotations,
+                        struct cage_slice *out)
+{
+    size_t mark = arena->used;
+    int32_t error = make(arena, side, rotations, out);
+    if (error != CAGE_OK)
+        cage_arena_release(arena, mark);
+    return error;
+}

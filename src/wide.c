@@ -1,0 +1,131 @@
+/* wide: 128- and 256-bit signed integers, without needing a 128-bit compiler type. */
+#include "wide.h"
+
+uint32_t cage_u128_bits(cage_i128 a)
+{
+    uint64_t word = cage_i128_high(a);
+    uint32_t bits = 64;
+    if (word == 0) {
+        word = cage_i128_low(a);
+        bits = 0;
+    }
+    for (uint32_t half = 32; half > 0; half /= 2)
+        if (word >> half) {
+            word >>= half;
+            bits += half;
+        }
+    return bits + (uint32_t)word;
+}
+
+cage_i128 cage_u128_divide(cage_i128 a, cage_i128 b, cage_i128 *remainder)
+{
+    uint64_t high = 0, low = 0;
+    cage_i128 rest = cage_i128_of(0); /* < b < 2^127, so that doubling it cannot overflow */
+    for (uint32_t bit = cage_u128_bits(a); bit-- > 0;) {
+        uint64_t next = bit >= 64 ? cage_i128_high(a) >> (bit - 64) : cage_i128_low(a) >> bit;
+        rest = cage_i128_add(cage_i128_shl(rest, 1), cage_i128_of((int64_t)(next & 1)));
+        cage_i128 less = cage_i128_sub(rest, b);
+        if (!cage_i128_negative(less)) {
+            rest = less;
+            if (bit >= 64)
+                high |= (uint64_t)1 << (bit - 64);
+            else
+                low |= (uint64_t)1 << bit;
+        }
+    }
+    *remainder = rest;
+    return cage_i128_make(high, low);
+}
+
+int64_t cage_i128_nearest(cage_i128 a, cage_i128 b, int64_t limit)
+{
+    if (cage_i128_negative(b)) {
+        a = cage_i128_sub(cage_i128_of(0), a);
+        b = cage_i128_abs(b);
+    }
+    bool negative = cage_i128_negative(a);
+    cage_i128 rest;
+    cage_i128 floor = cage_u128_divide(cage_i128_abs(a), b, &rest);
+    /* Up when 2 rest > b; a half goes toward +infinity, that is up for a > 0 only. */
+    int32_t half = cage_i128_compare(cage_i128_shl(rest, 1), b);
+    if (half > 0 || (half == 0 && !negative))
+        floor = cage_i128_add(floor, cage_i128_of(1));
+    if (cage_i128_compare(floor, cage_i128_of(limit)) > 0)
+        floor = cage_i128_of(limit);
+    int64_t value = (int64_t)cage_i128_low(floor);
+    return negative ? -value : value;
+}
+
+int64_t cage_i128_floor(cage_i128 a, cage_i128 b, int64_t limit)
+{
+    bool negative = cage_i128_negative(a);
+    cage_i128 rest;
+    cage_i128 floor = cage_u128_divide(cage_i128_abs(a), b, &rest);
+    if (negative && cage_i128_sign(rest) != 0)
+        floor = cage_i128_add(floor, cage_i128_of(1));
+    if (cage_i128_compare(floor, cage_i128_of(limit)) > 0)
+        floor = cage_i128_of(limit);
+    int64_t value = (int64_t)cage_i128_low(floor);
+    return negative ? -value : value;
+}
+
+uint64_t cage_u128_root(cage_i128 a)
+{
+    uint64_t root = 0; /* < 2^63, so root^2 fits */
+    for (uint32_t bit = (cage_u128_bits(a) + 1) / 2; bit-- > 0;) {
+        uint64_t next = root | (uint64_t)1 << bit;
+        if (cage_i128_compare(cage_u64_mul(next, next), a) <= 0)
+            root = next;
+    }
+    return root;
+}
+
+/* Add the 128-bit unsigned value to the words from `at` on. */
+static void accumulate(cage_i256 *sum, int32_t at, cage_i128 value)
+{
+    uint64_t part[2] = {cage_i128_low(value), cage_i128_high(value)};
+    uint64_t carry = 0;
+    for (int32_t i = at; i < 4; i++) {
+        uint64_t add = i - at < 2 ? part[i - at] : 0;
+        uint64_t word = sum->word[i] + add;
+        uint64_t over = word < add;
+        sum->word[i] = word + carry;
+        carry = over + (sum->word[i] < carry); /* at most 1 of the two can be set */
+    }
+}
+
+cage_i256 cage_i256_mul(cage_i128 a, cage_i128 b)
+{
+    bool negative = cage_i128_negative(a) != cage_i128_negative(b);
+    a = cage_i128_abs(a);
+    b = cage_i128_abs(b);
+    cage_i256 product = {{0, 0, 0, 0}};
+    accumulate(&product, 0, cage_u64_mul(cage_i128_low(a), cage_i128_low(b)));
+    accumulate(&product, 1, cage_u64_mul(cage_i128_low(a), cage_i128_high(b)));
+    accumulate(&product, 1, cage_u64_mul(cage_i128_high(a), cage_i128_low(b)));
+    accumulate(&product, 2, cage_u64_mul(cage_i128_high(a), cage_i128_high(b)));
+    cage_i256 zero = {{0, 0, 0, 0}};
+    return negative ? cage_i256_sub(zero, product) : product;
+}
+
+cage_i256 cage_i256_add(cage_i256 a, cage_i256 b)
+{
+    accumulate(&a, 0, cage_i128_make(b.word[1], b.word[0]));
+    accumulate(&a, 2, cage_i128_make(b.word[3], b.word[2]));
+    return a;
+}
+
+cage_i256 cage_i256_sub(cage_i256 a, cage_i256 b)
+{
+    cage_i256 one = {{1, 0, 0, 0}};
+    for (int32_t i = 0; i < 4; i++)
+        b.word[i] = ~b.word[i];
+    return cage_i256_add(cage_i256_add(a, b), one);
+}
+
+int32_t cage_i256_sign(cage_i256 a)
+{
+    if (a.word[3] >> 63)
+        return -1;
+    return (a.word[0] | a.word[1] | a.word[2] | a.word[3]) != 0;
+}

@@ -1,0 +1,160 @@
+/* wide: 128- and 256-bit signed integers, without needing a 128-bit compiler type.
+ *
+ * Two's complement, wrapping: every operation is exact modulo 2^128 or 2^256, so a result that is known
+ * to fit is right whatever its terms did. Where the compiler has __int128 it is used for the 128-bit
+ * half; CAGE_LIMBS selects the portable limbs instead, with the same results. */
+#ifndef CAGE_WIDE_H
+#define CAGE_WIDE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define CAGE_INLINE inline __attribute__((always_inline))
+#else
+#define CAGE_INLINE inline
+#endif
+
+#if defined(__SIZEOF_INT128__) && !defined(CAGE_LIMBS)
+
+__extension__ typedef __int128 cage_i128;
+__extension__ typedef unsigned __int128 cage_u128;
+
+static CAGE_INLINE cage_i128 cage_i128_make(uint64_t high, uint64_t low)
+{
+    return (cage_i128)(((cage_u128)high << 64) | low);
+}
+static CAGE_INLINE uint64_t cage_i128_low(cage_i128 a) { return (uint64_t)a; }
+static CAGE_INLINE uint64_t cage_i128_high(cage_i128 a) { return (uint64_t)((cage_u128)a >> 64); }
+static CAGE_INLINE cage_i128 cage_i128_mul(int64_t a, int64_t b) { return (cage_i128)a * b; }
+static CAGE_INLINE cage_i128 cage_u64_mul(uint64_t a, uint64_t b) { return (cage_i128)((cage_u128)a * b); }
+static CAGE_INLINE cage_i128 cage_i128_add(cage_i128 a, cage_i128 b)
+{
+    return (cage_i128)((cage_u128)a + (cage_u128)b);
+}
+static CAGE_INLINE cage_i128 cage_i128_sub(cage_i128 a, cage_i128 b)
+{
+    return (cage_i128)((cage_u128)a - (cage_u128)b);
+}
+static CAGE_INLINE cage_i128 cage_i128_scale(cage_i128 a, int64_t b)
+{
+    return (cage_i128)((cage_u128)a * (cage_u128)(cage_i128)b);
+}
+/* 0 <= bits <= 127, toward zero bits shifted in */
+static CAGE_INLINE cage_i128 cage_i128_shr(cage_i128 a, uint32_t bits) { return (cage_i128)((cage_u128)a >> bits); }
+static CAGE_INLINE cage_i128 cage_i128_shl(cage_i128 a, uint32_t bits) { return (cage_i128)((cage_u128)a << bits); }
+
+#else
+
+typedef struct cage_i128 {
+    uint64_t low, high;
+} cage_i128;
+
+static inline cage_i128 cage_i128_make(uint64_t high, uint64_t low)
+{
+    cage_i128 a = {low, high};
+    return a;
+}
+static inline uint64_t cage_i128_low(cage_i128 a) { return a.low; }
+static inline uint64_t cage_i128_high(cage_i128 a) { return a.high; }
+
+/* Halves of 32 bits; the middle sum is at most 3 (2^32 - 1) + ... < 2^34, so nothing is lost. */
+static inline cage_i128 cage_u64_mul(uint64_t a, uint64_t b)
+{
+    uint64_t a0 = (uint32_t)a, a1 = a >> 32, b0 = (uint32_t)b, b1 = b >> 32;
+    uint64_t p00 = a0 * b0, p01 = a0 * b1, p10 = a1 * b0, p11 = a1 * b1;
+    uint64_t middle = (p00 >> 32) + (uint32_t)p01 + (uint32_t)p10;
+    return cage_i128_make(p11 + (p01 >> 32) + (p10 >> 32) + (middle >> 32), (middle << 32) | (uint32_t)p00);
+}
+static inline cage_i128 cage_i128_mul(int64_t a, int64_t b)
+{
+    cage_i128 p = cage_u64_mul((uint64_t)a, (uint64_t)b);
+    p.high -= (a < 0 ? (uint64_t)b : 0) + (b < 0 ? (uint64_t)a : 0);
+    return p;
+}
+static inline cage_i128 cage_i128_add(cage_i128 a, cage_i128 b)
+{
+    uint64_t low = a.low + b.low;
+    return cage_i128_make(a.high + b.high + (low < a.low), low);
+}
+static inline cage_i128 cage_i128_sub(cage_i128 a, cage_i128 b)
+{
+    return cage_i128_make(a.high - b.high - (a.low < b.low), a.low - b.low);
+}
+static inline cage_i128 cage_i128_scale(cage_i128 a, int64_t b)
+{
+    cage_i128 p = cage_u64_mul(a.low, (uint64_t)b);
+    p.high += a.high * (uint64_t)b - (b < 0 ? a.low : 0);
+    return p;
+}
+static inline cage_i128 cage_i128_shr(cage_i128 a, uint32_t bits)
+{
+    if (bits == 0)
+        return a;
+    if (bits >= 64)
+        return cage_i128_make(0, a.high >> (bits - 64));
+    return cage_i128_make(a.high >> bits, (a.low >> bits) | (a.high << (64 - bits)));
+}
+static inline cage_i128 cage_i128_shl(cage_i128 a, uint32_t bits)
+{
+    if (bits == 0)
+        return a;
+    if (bits >= 64)
+        return cage_i128_make(a.low << (bits - 64), 0);
+    return cage_i128_make((a.high << bits) | (a.low >> (64 - bits)), a.low << bits);
+}
+
+#endif
+
+static CAGE_INLINE cage_i128 cage_i128_of(int64_t a) { return cage_i128_make(a < 0 ? UINT64_MAX : 0, (uint64_t)a); }
+
+static CAGE_INLINE bool cage_i128_negative(cage_i128 a) { return cage_i128_high(a) >> 63; }
+
+/* -1, 0 or 1 */
+static CAGE_INLINE int32_t cage_i128_sign(cage_i128 a)
+{
+    if (cage_i128_negative(a))
+        return -1;
+    return (cage_i128_high(a) | cage_i128_low(a)) != 0;
+}
+
+static CAGE_INLINE cage_i128 cage_i128_abs(cage_i128 a)
+{
+    return cage_i128_negative(a) ? cage_i128_sub(cage_i128_of(0), a) : a;
+}
+
+/* The sign of a - b, whatever their size. */
+static CAGE_INLINE int32_t cage_i128_compare(cage_i128 a, cage_i128 b)
+{
+    int64_t ah = (int64_t)cage_i128_high(a), bh = (int64_t)cage_i128_high(b);
+    if (ah != bh)
+        return ah < bh ? -1 : 1;
+    uint64_t al = cage_i128_low(a), bl = cage_i128_low(b);
+    return al < bl ? -1 : al > bl;
+}
+
+/* Bits needed for the unsigned value a: 0 for 0, 128 at most. */
+uint32_t cage_u128_bits(cage_i128 a);
+
+/* Floor and remainder of the unsigned a by the unsigned b > 0, b < 2^127. */
+cage_i128 cage_u128_divide(cage_i128 a, cage_i128 b, cage_i128 *remainder);
+
+/* The nearest integer to a / b, ties toward +infinity, clamped to +-limit; b is not 0, |a| and |b| < 2^126. */
+int64_t cage_i128_nearest(cage_i128 a, cage_i128 b, int64_t limit);
+
+/* The largest integer not above a / b, clamped likewise; 0 < b < 2^126, |a| < 2^126. */
+int64_t cage_i128_floor(cage_i128 a, cage_i128 b, int64_t limit);
+
+/* floor(sqrt(a)) of the unsigned value a < 2^126. */
+uint64_t cage_u128_root(cage_i128 a);
+
+typedef struct cage_i256 {
+    uint64_t word[4]; /* least significant first */
+} cage_i256;
+
+cage_i256 cage_i256_mul(cage_i128 a, cage_i128 b);
+cage_i256 cage_i256_add(cage_i256 a, cage_i256 b);
+cage_i256 cage_i256_sub(cage_i256 a, cage_i256 b);
+int32_t cage_i256_sign(cage_i256 a);
+
+#endif
