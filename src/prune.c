@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { MARGIN = 4, PIXELS_2D = 256, PIXELS_3D = 32 };
+enum { MARGIN = 4, PIXELS_2D = 512, PIXELS_3D = 64, FIRST = 8 };
 
 static void lay(int32_t dim, const cage_ball *ball, int32_t count, struct cage_raster *raster)
 {
@@ -26,22 +26,13 @@ static void lay(int32_t dim, const cage_ball *ball, int32_t count, struct cage_r
         raster->size[k] = k < dim ? ((high[k] - low[k]) >> raster->shift) + 1 + 2 * MARGIN : 1;
     }
     raster->row = (raster->size[0] + 63) / 64;
+    raster->block_row = (raster->row + 7) / 8;
+    raster->block_rows = (raster->size[1] + 7) / 8;
 }
 
 static uint64_t *row_of(const struct cage_raster *raster, int32_t y, int32_t z)
 {
     return raster->covered + ((size_t)z * (size_t)raster->size[1] + (size_t)y) * (size_t)raster->row;
-}
-
-/* The bits of word w that belong to pixels first..last. */
-static uint64_t mask_of(int32_t w, int32_t first, int32_t last)
-{
-    uint64_t mask = UINT64_MAX;
-    if (first > 64 * w)
-        mask <<= first - 64 * w;
-    if (last < 64 * w + 63)
-        mask &= UINT64_MAX >> (64 * w + 63 - last);
-    return mask;
 }
 
 static void pixel_of(const struct cage_raster *raster, const cage_ball *ball, int32_t at[3])
@@ -51,64 +42,133 @@ static void pixel_of(const struct cage_raster *raster, const cage_ball *ball, in
     at[2] = (ball->z - raster->origin[2]) >> raster->shift;
 }
 
+static void set(uint64_t *row, int32_t first, int32_t last)
+{
+    int32_t w = first >> 6, end = last >> 6;
+    uint64_t mask = UINT64_MAX << (first & 63), last_mask = UINT64_MAX >> (63 - (last & 63));
+    for (; w < end; w++, mask = UINT64_MAX)
+        row[w] |= mask;
+    row[w] |= mask & last_mask;
+}
+
+static bool all_set(const uint64_t *row, int32_t first, int32_t last)
+{
+    int32_t w = first >> 6, end = last >> 6;
+    uint64_t mask = UINT64_MAX << (first & 63), last_mask = UINT64_MAX >> (63 - (last & 63));
+    for (; w < end; w++, mask = UINT64_MAX)
+        if (~row[w] & mask)
+            return false;
+    return !(~row[w] & mask & last_mask);
+}
+
+/* Sum up which blocks are covered. */
+static void sum_up(struct cage_raster *raster)
+{
+    for (int32_t z = 0; z < raster->size[2]; z++)
+        for (int32_t b = 0; b < raster->block_rows; b++) {
+            uint64_t *to = raster->blocks + ((size_t)z * (size_t)raster->block_rows + (size_t)b) * (size_t)raster->block_row;
+            memset(to, 0, (size_t)raster->block_row * sizeof *to);
+            for (int32_t w = 0; w < raster->row && 8 * b + 7 < raster->size[1]; w++) {
+                uint64_t all = UINT64_MAX;
+                for (int32_t y = 8 * b; y < 8 * b + 8; y++)
+                    all &= row_of(raster, y, z)[w];
+                for (int32_t k = 0; k < 8 && all; k++)
+                    if ((all >> (8 * k) & 255) == 255)
+                        to[w >> 3] |= (uint64_t)1 << (8 * (w & 7) + k);
+            }
+        }
+}
+
+/* Are all blocks around the ball, with the margin of one pixel that rounding its centre costs, covered? */
+static bool blocks_cover(const struct cage_raster *raster, int32_t dim, const cage_ball *ball)
+{
+    int32_t at[3], gap = (ball->r >> raster->shift) + 2, deep = dim == 3 ? gap : 0;
+    pixel_of(raster, ball, at);
+    for (int32_t z = at[2] - deep; z <= at[2] + deep; z++)
+        for (int32_t b = (at[1] - gap) >> 3; b <= (at[1] + gap) >> 3; b++)
+            if (!all_set(raster->blocks + ((size_t)z * (size_t)raster->block_rows + (size_t)b) * (size_t)raster->block_row,
+                         (at[0] - gap) >> 3, (at[0] + gap) >> 3))
+                return false;
+    return true;
+}
+
+/* The disc of pixels (i, j) with i^2 + j^2 <= square: |i| <= width[j] for j < rows. */
+struct stamp {
+    int64_t square;
+    int32_t rows;
+    int16_t width[PIXELS_2D];
+};
+
+/* square < (PIXELS_2D / 2)^2; most balls of a slice share a few radii, so the last stamp often serves. */
+static void cut(struct stamp *stamp, int64_t square)
+{
+    if (stamp->square == square)
+        return;
+    int32_t width = 0, j = 0;
+    while ((int64_t)(width + 1) * (width + 1) <= square)
+        width++;
+    for (; (int64_t)j * j <= square; j++) {
+        while ((int64_t)width * width > square - (int64_t)j * j)
+            width--;
+        stamp->width[j] = (int16_t)width;
+    }
+    stamp->square = square;
+    stamp->rows = j;
+}
+
 /* A ball whose centre is anywhere in pixel 0 holds pixel (i, j, k) if (|i|+1)^2 + (|j|+1)^2 + (|k|+1)^2 <= r^2 / width^2 (in
  * the plane without k). */
-static void mark(struct cage_raster *raster, int32_t dim, const cage_ball *ball)
+static void mark(struct cage_raster *raster, int32_t dim, const cage_ball *ball, struct stamp *stamp)
 {
     int64_t square = ((int64_t)ball->r * ball->r) >> (2 * raster->shift);
     int32_t at[3];
     pixel_of(raster, ball, at);
     for (int32_t k = 0; k == 0 || dim == 3; k++) {
         int64_t left = dim == 3 ? square - (int64_t)(k + 1) * (k + 1) : square;
-        int32_t width = ball->r >> raster->shift; /* |i| + 1 */
         if (left < 2)
             return;
-        for (int32_t j = 0; width > 0; j++) {
-            while (width > 0 && (int64_t)width * width > left - (int64_t)(j + 1) * (j + 1))
-                width--;
-            if (width == 0)
-                break;
-            int32_t first = at[0] - (width - 1), last = at[0] + (width - 1);
-            for (int32_t z = at[2] - k; z <= at[2] + k; z += k ? 2 * k : 1)
-                for (int32_t y = at[1] - j; y <= at[1] + j; y += j ? 2 * j : 1) {
-                    uint64_t *row = row_of(raster, y, z);
-                    for (int32_t w = first >> 6; w <= last >> 6; w++)
-                        row[w] |= mask_of(w, first, last);
-                }
-        }
+        cut(stamp, left);
+        for (int32_t z = at[2] - k; z <= at[2] + k; z += k ? 2 * k : 1)
+            for (int32_t j = 1; j < stamp->rows && stamp->width[j] > 0; j++) {
+                int32_t half = stamp->width[j] - 1;
+                set(row_of(raster, at[1] - j + 1, z), at[0] - half, at[0] + half);
+                set(row_of(raster, at[1] + j - 1, z), at[0] - half, at[0] + half);
+            }
     }
 }
 
 /* It cannot meet pixel (i, j, k) if (|i|-1)^2 + (|j|-1)^2 + (|k|-1)^2 > r^2 / width^2, negative terms taken as 0. */
-bool cage_raster_keeps(const struct cage_raster *raster, int32_t dim, const cage_ball *ball)
+static bool keeps(const struct cage_raster *raster, int32_t dim, const cage_ball *ball, struct stamp *stamp)
 {
-    if (!raster->used)
-        return true;
     int64_t square = (((int64_t)ball->r * ball->r) >> (2 * raster->shift)) + 1;
     int32_t at[3];
     pixel_of(raster, ball, at);
     for (int32_t k = 0; k == 0 || dim == 3; k++) {
-        int64_t deep = k > 0 ? k - 1 : 0, left = square - deep * deep;
-        int32_t gap = (ball->r >> raster->shift) + 1; /* gap^2 >= square: largest |i| - 1 */
-        if (left < 0)
+        int64_t deep = k > 0 ? k - 1 : 0;
+        if (deep * deep > square)
             break;
-        for (int32_t j = 0;; j++) {
-            int64_t high = j > 0 ? j - 1 : 0;
-            while (gap >= 0 && (int64_t)gap * gap > left - high * high)
-                gap--;
-            if (gap < 0)
-                break;
-            int32_t first = at[0] - gap - 1, last = at[0] + gap + 1;
-            for (int32_t z = at[2] - k; z <= at[2] + k; z += k ? 2 * k : 1)
-                for (int32_t y = at[1] - j; y <= at[1] + j; y += j ? 2 * j : 1) {
-                    const uint64_t *row = row_of(raster, y, z);
-                    for (int32_t w = first >> 6; w <= last >> 6; w++)
-                        if (~row[w] & mask_of(w, first, last))
-                            return true;
-                }
-        }
+        cut(stamp, square - deep * deep);
+        for (int32_t z = at[2] - k; z <= at[2] + k; z += k ? 2 * k : 1)
+            for (int32_t j = 0; j <= stamp->rows; j++) {
+                int32_t half = stamp->width[j > 0 ? j - 1 : 0] + 1;
+                if (!all_set(row_of(raster, at[1] - j, z), at[0] - half, at[0] + half) ||
+                    !all_set(row_of(raster, at[1] + j, z), at[0] - half, at[0] + half))
+                    return true;
+            }
     }
     return false;
+}
+
+int32_t cage_raster_keep(const struct cage_raster *raster, int32_t dim, cage_ball *ball, int32_t *of, int32_t count)
+{
+    struct stamp stamp = {-1, 0, {0}};
+    int32_t kept = 0;
+    for (int32_t i = 0; i < count; i++)
+        if (!raster->used || (!blocks_cover(raster, dim, &ball[i]) && keeps(raster, dim, &ball[i], &stamp))) {
+            ball[kept] = ball[i];
+            of[kept++] = of[i];
+        }
+    return kept;
 }
 
 int32_t cage_raster_make(struct cage_arena *arena, int32_t dim, const cage_ball *ball, int32_t count, struct cage_raster *raster)
@@ -122,12 +182,21 @@ int32_t cage_raster_make(struct cage_arena *arena, int32_t dim, const cage_ball 
     if (!raster->used)
         return CAGE_OK;
     size_t words = (size_t)raster->row * (size_t)raster->size[1] * (size_t)raster->size[2];
+    size_t blocks = (size_t)raster->block_row * (size_t)raster->block_rows * (size_t)raster->size[2];
     raster->covered = cage_arena_take(arena, words, sizeof *raster->covered);
-    if (!raster->covered)
+    raster->blocks = cage_arena_take(arena, blocks, sizeof *raster->blocks);
+    if (!raster->covered || !raster->blocks)
         return CAGE_ERROR_MEMORY;
     memset(raster->covered, 0, words * sizeof *raster->covered);
+    /* A few balls cover most of what is covered; most of the others then add nothing. */
+    struct stamp stamp = {-1, 0, {0}};
+    for (int32_t i = 0; i < count; i += FIRST)
+        mark(raster, dim, &ball[i], &stamp);
+    sum_up(raster);
     for (int32_t i = 0; i < count; i++)
-        mark(raster, dim, &ball[i]);
+        if (i % FIRST != 0 && !blocks_cover(raster, dim, &ball[i]))
+            mark(raster, dim, &ball[i], &stamp);
+    sum_up(raster);
     return CAGE_OK;
 }
 

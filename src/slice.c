@@ -35,17 +35,6 @@ static int32_t collide(const struct cage_side *side, const struct cage_part *par
     return count;
 }
 
-static int32_t keep(const struct cage_raster *raster, int32_t dim, cage_ball *ball, int32_t *of, int32_t count)
-{
-    int32_t kept = 0;
-    for (int32_t i = 0; i < count; i++)
-        if (cage_raster_keeps(raster, dim, &ball[i])) {
-            ball[kept] = ball[i];
-            of[kept++] = of[i];
-        }
-    return kept;
-}
-
 /* Components of the kept balls that are none of all balls become covered; the others move up. */
 static void drop_phantoms(const struct cage_triangulation *t, const struct cage_raster *raster, struct cage_components *c, int32_t *now)
 {
@@ -174,7 +163,7 @@ static int32_t make(struct cage_arena *arena, const struct cage_side *side, cons
     int32_t error = cage_raster_make(arena, side->dim, ball, count, &raster);
     if (error != CAGE_OK)
         return error;
-    int32_t kept = keep(&raster, side->dim, ball, of, count);
+    int32_t kept = cage_raster_keep(&raster, side->dim, ball, of, count);
     out->balls = count;
     error = cage_delaunay(arena, side->dim, ball, kept, &out->t);
     if (error != CAGE_OK)
