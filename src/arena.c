@@ -7,7 +7,7 @@ void cage_arena_init(struct cage_arena *arena, void *block, size_t bytes)
     if (lost > bytes)
         lost = bytes;
     arena->base = (unsigned char *)block + lost;
-    arena->size = bytes - lost;
+    arena->size = (bytes - lost) / CAGE_ALIGN * CAGE_ALIGN;
     arena->used = 0;
     arena->peak = 0;
     arena->needed = 0;

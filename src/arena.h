@@ -16,10 +16,10 @@ struct cage_arena {
 
 #define CAGE_ALIGN 8u
 
-/* Any block will do; up to CAGE_ALIGN - 1 of its first bytes are lost to alignment. */
+/* Any block will do; up to CAGE_ALIGN - 1 bytes at either end are lost to alignment. */
 void cage_arena_init(struct cage_arena *arena, void *block, size_t bytes);
 
-/* count objects of the given size, not initialised; null when they do not fit (see needed). */
+/* count objects of the given size > 0, not initialised; null when they do not fit (see needed). */
 void *cage_arena_take(struct cage_arena *arena, size_t count, size_t size);
 
 /* How many objects of the given size still fit. */

@@ -84,7 +84,8 @@ static int32_t new_slot(struct build *b)
     return s;
 }
 
-/* Gather the hole and its front, breadth first from simplex s, which is in conflict; the number of front facets. */
+/* Gather the hole and its front, breadth first from simplex s, which is in conflict; the number of front facets, -1 if there are
+ * more than slots, so that they cannot be stitched. */
 static CAGE_INLINE int32_t carve(int32_t dim, struct build *b, int32_t p, int32_t s, int32_t *holes)
 {
     const struct cage_site *site = &b->site[p];
@@ -107,6 +108,8 @@ static CAGE_INLINE int32_t carve(int32_t dim, struct build *b, int32_t p, int32_
                     }
                 }
             }
+            if (fronts == b->capacity)
+                return -1;
             b->front[fronts++] = 4 * h + i;
         }
     }
@@ -183,7 +186,7 @@ static CAGE_INLINE bool insert_all(int32_t dim, struct build *b, int32_t sites)
         if (!in_conflict(dim, b, s, &b->site[p]))
             continue; /* hidden: where the simplex that contains it is not in conflict, none is */
         int32_t holes, fronts = carve(dim, b, p, s, &holes);
-        if (!stitch(dim, b, p, fronts, holes))
+        if (fronts < 0 || !stitch(dim, b, p, fronts, holes))
             return false;
     }
     return true;
@@ -242,6 +245,12 @@ static size_t slots_expected(int32_t dim, int32_t sites)
     return dim == 2 ? 4 * (size_t)sites : 9 * (size_t)sites + 64;
 }
 
+/* Bytes from a mark on that suffice (a guess in space): sites, their order and its scratch, slots. */
+static size_t bytes_expected(int32_t dim, int32_t sites)
+{
+    return (size_t)sites * (sizeof(struct cage_site) + 5 * sizeof(int32_t)) + slots_expected(dim, sites) * BYTES_PER_SIMPLEX + 8 * CAGE_ALIGN;
+}
+
 int32_t cage_delaunay(struct cage_arena *arena, int32_t dim, const cage_ball *ball, int32_t count,
                       struct cage_triangulation *out)
 {
@@ -251,6 +260,7 @@ int32_t cage_delaunay(struct cage_arena *arena, int32_t dim, const cage_ball *ba
     int32_t *input = cage_arena_take(arena, (size_t)sites, sizeof *input);
     if (!site || !input || cage_order(arena, dim, ball, count, input + dim + 1) != CAGE_OK) {
         cage_arena_release(arena, mark);
+        arena->needed = mark + bytes_expected(dim, sites);
         return CAGE_ERROR_MEMORY;
     }
     make_sentinels(dim, site);
@@ -261,8 +271,9 @@ int32_t cage_delaunay(struct cage_arena *arena, int32_t dim, const cage_ball *ba
         site[i] = make_site(from->x, from->y, from->z, from->r, (int64_t)from->r * from->r);
     }
 
-    /* All that is left serves as slots; what was not used is not counted. */
+    /* All that is left serves as slots, but for one that rounding the two arrays may cost; what was not used is not counted. */
     size_t kept = arena->used, room = cage_arena_room(arena, BYTES_PER_SIMPLEX), expected = slots_expected(dim, sites);
+    room -= room > 0;
     struct build b = {site, NULL, NULL, NULL, NULL, 0, 1, -1, 0};
     b.capacity = room > INT32_MAX / 4 ? INT32_MAX / 4 : (int32_t)room;
     size_t peak = arena->peak;

@@ -102,7 +102,7 @@ static bool glue_by_proof(struct glue *g, struct cage_touch *touch, int32_t room
 {
     for (int32_t s = 0; s < g->c->t.simplices; s++)
         g->reached[s] = -1;
-    for (int32_t l = 1; l < g->d->regions; l++)
+    for (int32_t l = 0; l < g->d->regions; l++)
         g->home[l] = g->d->region[l].known ? cage_delaunay_locate(&g->c->t, g->d->region[l].point, 0) : -1;
     for (int32_t k = 0; k < g->c->regions; k++) {
         bool outer = spread(g, k);

@@ -102,6 +102,7 @@ int32_t cage_graph_add_nodes(struct cage_graph *graph, int32_t side, int32_t cel
     for (int32_t k = 0; k < components; k++) {
         node[k].cell = cell;
         node[k].component = k;
+        node[k].inside = CAGE_COVERED;
     }
     facts->node = node;
     facts->nodes = components;

@@ -9,7 +9,7 @@
 
 enum { ROUND_BITS = 3, CURVE_BITS = 29 };
 
-/* The round a ball falls in: a quarter of a round's balls for each earlier one, drawn by a hash of the index. */
+/* The round a ball falls in, drawn by a hash of the index: each round has an eighth of the balls of the next. */
 static uint32_t round_of(uint32_t index)
 {
     uint32_t hash = (index + 1) * 2654435769u;

@@ -2,11 +2,11 @@
  *
  * Inside a slice the way runs from simplex to simplex of one component: the segment between the orthocentres of two free neighbours
  * is free, and so is that from a free point to the orthocentre of its simplex. Way points are rounded to the grid and the
- * legs certified again (check.h), the longest that are clear taken first. */
-#include "check.h"
+ * legs certified again (certify.h), the longest that are clear taken first. */
+#include "certify.h"
 #include "proof.h"
 
-enum { FAR_2D = 1 << 29, FAR_3D = 1 << 25 };
+enum { FAR_2D = 15 << 26, FAR_3D = 1 << 25, CLIPS = 64 };
 
 /* Directions in which the sentinels lie from the centre of their simplex: from a point that is nearest to a sentinel, the
  * ray in its direction is free. */
@@ -61,7 +61,7 @@ static int32_t route(const struct cage_slice *slice, int32_t s, int32_t to, int3
     from[s] = s;
     for (int32_t n = 0; n < count; n++) {
         int32_t here = queue[n];
-        if (to >= 0 ? here == to : cage_simplex_outer(t, here) && centre_of(t, here, &unused))
+        if (to >= 0 ? here == to : cage_simplex_outer(t, here))
             return here;
         if (here != s && !centre_of(t, here, &unused))
             continue;
@@ -76,6 +76,31 @@ static int32_t route(const struct cage_slice *slice, int32_t s, int32_t to, int3
     return -1;
 }
 
+/* The orthocentre of simplex s is out of reach: the point in its direction from the way point a, 2^29 (2^25) away. */
+static struct point toward(const struct cage_triangulation *t, int32_t s, struct point a)
+{
+    const struct cage_site *v[4];
+    struct cage_centre centre;
+    cage_i128 offset[3], all = cage_i128_of(0);
+    cage_simplex_sites(t, s, v);
+    cage_orthocentre(t->dim, v, &centre);
+    const int32_t base[3] = {centre.base->x, centre.base->y, centre.base->z};
+    for (int32_t k = 0; k < 3; k++) {
+        /* offset + denominator (base - a): < 2^95 in the plane, 2^107 in space */
+        offset[k] = cage_i128_add(centre.offset[k], cage_i128_scale(centre.denominator, (int64_t)base[k] - a.x[k]));
+        cage_i128 size = cage_i128_abs(offset[k]);
+        all = cage_i128_compare(size, all) > 0 ? size : all;
+    }
+    for (int32_t k = 0; k < 3; k++) {
+        /* scaled by 2^29 / all: < 2^126 before the division in space too, after dropping 16 bits there */
+        uint32_t shift = t->dim == 2 ? 0 : 16;
+        cage_i128 size = cage_i128_shr(cage_i128_abs(offset[k]), shift);
+        int64_t to = cage_i128_nearest(cage_i128_scale(size, t->dim == 2 ? 1 << 29 : FAR_3D), cage_i128_shr(all, shift), FAR_2D);
+        a.x[k] += (int32_t)(cage_i128_negative(offset[k]) ? -to : to);
+    }
+    return a;
+}
+
 /* From the orthocentre of a simplex with a sentinel, straight out until the object is beyond all obstacles. */
 static struct point beyond(const struct cage_proof *proof, const struct cage_triangulation *t, int32_t s, struct point from)
 {
@@ -84,8 +109,8 @@ static struct point beyond(const struct cage_proof *proof, const struct cage_tri
         if (t->simplex[s].v[i] <= t->dim)
             sentinel = t->simplex[s].v[i];
     const int32_t *ray = t->dim == 2 ? RAY_2D[sentinel] : RAY_3D[sentinel];
-    int32_t axis = ray[0] ? 0 : 1, low, high, size = cage_check_size(&proof->scene, proof->result.pivot);
-    cage_check_extent(&proof->scene, axis, &low, &high);
+    int32_t axis = ray[0] ? 0 : 1, low, high, size = cage_certify_size(&proof->scene, proof->result.pivot);
+    cage_certify_extent(&proof->scene, axis, &low, &high);
     /* Obstacles and object are within CAGE_REACH, the point within FAR: the sums stay below 2^30 in the plane. */
     int64_t missing = low > high ? 0 : ray[axis] > 0 ? (int64_t)high + size - from.x[axis] : (int64_t)from.x[axis] - (low - size);
     int64_t pace = ray[axis] > 0 ? ray[axis] : -ray[axis], times = missing > 0 ? (missing + pace - 1) / pace : 0;
@@ -111,7 +136,7 @@ static int32_t append_way(struct cage_proof *proof, const struct point *way, int
 {
     for (int32_t at = 0; at + 1 < count;) {
         int32_t to = count - 1;
-        while (!cage_check_leg(&proof->scene, proof->result.pivot, q, way[at].x, way[to].x, 0)) {
+        while (!cage_certify_leg(&proof->scene, proof->result.pivot, q, way[at].x, way[to].x, 0)) {
             if (to == at + 1)
                 return CAGE_PATH_FAILED;
             to = at + (to - at) / 2;
@@ -139,28 +164,43 @@ static int32_t append_leg(struct cage_proof *proof, const struct cage_slice *sli
     if (last < 0)
         return CAGE_PATH_FAILED;
 
-    int32_t count = 0, end = t->simplices + 3; /* filled from the end */
+    /* Filled from the end: leave or the way out, orthocentres, enter. */
+    int32_t at = t->simplices + 3, end = at;
+    struct point centre, start = {{enter[0], enter[1], enter[2]}};
+    if (leave) {
+        struct point stop = {{leave[0], leave[1], leave[2]}};
+        way[--at] = stop;
+    } else if (centre_of(t, last, &centre)) {
+        way[--at] = beyond(proof, t, last, centre);
+    } else {
+        struct point before = start;
+        if (last != first)
+            centre_of(t, from[last], &before);
+        way[--at] = toward(t, last, before);
+    }
     for (int32_t s = last;; s = from[s]) {
-        struct point centre;
-        if (centre_of(t, s, &centre)) {
-            if (s == last && !leave)
-                way[end - ++count] = beyond(proof, t, s, centre);
-            else if (s == last)
-                for (int32_t k = 0, at = end - ++count; k < 3; k++)
-                    way[at].x[k] = leave[k];
-            way[end - ++count] = centre;
-        } else if (s == last) {
-            if (!leave)
-                return CAGE_PATH_FAILED;
-            for (int32_t k = 0, at = end - ++count; k < 3; k++)
-                way[at].x[k] = leave[k];
-        }
+        if (centre_of(t, s, &centre))
+            way[--at] = centre;
         if (s == first)
             break;
     }
-    for (int32_t k = 0, at = end - ++count; k < 3; k++)
-        way[at].x[k] = enter[k];
-    return append_way(proof, &way[end - count], count, q);
+    way[--at] = start;
+    return append_way(proof, &way[at], end - at, q);
+}
+
+/* End the path at the first of some points on its last leg at which the object is beyond all obstacles. */
+static void clip(struct cage_proof *proof)
+{
+    cage_pose *last = &proof->path[proof->path_count - 1];
+    const cage_pose from = last[-1], to = *last;
+    for (int32_t n = 1; n < CLIPS; n++) {
+        for (int32_t k = 0; k < 3; k++)
+            last->x[k] = (int32_t)(from.x[k] + ((int64_t)to.x[k] - from.x[k]) * n / CLIPS);
+        if (cage_certify_beyond(&proof->scene, proof->result.pivot, last->x) &&
+            cage_certify_leg(&proof->scene, proof->result.pivot, to.q, from.x, last->x, 0))
+            return;
+    }
+    *last = to;
 }
 
 int32_t cage_path_step(struct cage_proof *proof)
@@ -191,7 +231,9 @@ int32_t cage_path_step(struct cage_proof *proof)
     }
     if (next)
         return 0;
-    if (proof->graph.goal && !append(proof, proof->at[1 - proof->origin], q))
+    if (!proof->graph.goal)
+        clip(proof);
+    else if (!append(proof, proof->at[1 - proof->origin], q))
         return CAGE_ERROR_MEMORY;
     for (int32_t i = 0, k = proof->path_count - 1; proof->origin == CAGE_CELL_GOAL && i < k; i++, k--) {
         cage_pose pose = proof->path[i];

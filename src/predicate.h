@@ -93,7 +93,7 @@ static CAGE_INLINE bool cage_conflict(int32_t dim, const struct cage_site *const
     return cage_i128_sign(det) > 0;
 }
 
-/* The power of the grid point p to the site, |p - z|^2 - r^2: 12 M^2 at most, 2^62 in the plane. */
+/* The power of the grid point p to the site, |p - z|^2 - r^2: within 8 M^2 in the plane (2^61), 12 M^2 in space. */
 static CAGE_INLINE int64_t cage_power(const struct cage_site *site, const int32_t p[3])
 {
     int64_t dx = (int64_t)p[0] - site->x, dy = (int64_t)p[1] - site->y, dz = (int64_t)p[2] - site->z;

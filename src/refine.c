@@ -6,11 +6,12 @@ static bool refinable(const struct cage_proof *proof, int32_t cell)
     return cell >= CAGE_CELL_ROOT && proof->graph.cell[cell].cell.level < proof->limits.max_level;
 }
 
-static bool outer_reached(const struct cage_proof *proof, int32_t cell)
+/* Has the outer search reached a component inside this one? */
+static bool outer_reached(const struct cage_proof *proof, const struct cage_node *inner)
 {
-    const struct cage_facts *facts = &proof->graph.cell[cell].facts[CAGE_OUTER];
+    const struct cage_facts *facts = &proof->graph.cell[inner->cell].facts[CAGE_OUTER];
     for (int32_t k = 0; k < facts->nodes; k++)
-        if (facts->node[k].seen == proof->reach[CAGE_OUTER].number)
+        if (facts->node[k].seen == proof->reach[CAGE_OUTER].number && facts->node[k].inside == inner->component)
             return true;
     return false;
 }
@@ -23,7 +24,7 @@ int32_t cage_refine_choose(const struct cage_proof *proof, struct cage_node *tar
         int32_t level = proof->graph.cell[node->cell].cell.level;
         if (refinable(proof, node->cell) && (coarsest < 0 || level < proof->graph.cell[coarsest].cell.level))
             coarsest = node->cell;
-        if (!(proof->limits.side & CAGE_SIDE_OUTER) || outer_reached(proof, node->cell))
+        if (!(proof->limits.side & CAGE_SIDE_OUTER) || (node != target && outer_reached(proof, node)))
             continue;
         *stop = node;
         at_stop = refinable(proof, node->cell) ? node->cell : -1;

@@ -1,6 +1,19 @@
 /* search: breadth first over the components of one side, building and gluing slices where it comes. */
-#include "check.h"
+#include "certify.h"
 #include "proof.h"
+
+/* An outer component lies in an inner one: any of its points tells which. */
+static int32_t place_inside(struct cage_proof *proof, const struct cage_slice *outer, int32_t cell)
+{
+    const struct cage_slice *inner;
+    if (proof->graph.cell[cell].facts[CAGE_INNER].nodes == 0)
+        return CAGE_OK;
+    int32_t error = cage_proof_slice(proof, CAGE_INNER, cell, &inner);
+    for (int32_t k = 0; k < outer->regions && error == CAGE_OK; k++)
+        if (outer->region[k].known)
+            proof->graph.cell[cell].facts[CAGE_OUTER].node[k].inside = cage_slice_locate(inner, outer->region[k].point);
+    return error;
+}
 
 static int32_t build(struct cage_proof *proof, int32_t side, int32_t cell, struct cage_held **held)
 {
@@ -17,6 +30,8 @@ static int32_t build(struct cage_proof *proof, int32_t side, int32_t cell, struc
         proof->result.slices[side]++;
         proof->result.balls[side] += slice.balls;
         proof->result.inserted[side] += slice.t.sites - slice.t.dim - 1;
+        if (error == CAGE_OK && side == CAGE_OUTER)
+            error = place_inside(proof, &slice, cell);
     }
     cage_arena_release(&proof->scratch, mark);
     *held = facts->held;
@@ -179,7 +194,7 @@ static void locate_end(struct cage_proof *proof, const struct cage_slice *slice,
             const int32_t to[3] = {at[0] + size * around[i][0], at[1] + size * around[i][1], at[2]};
             bool inside = to[0] >= -reach && to[0] <= reach && to[1] >= -reach && to[1] <= reach;
             int32_t there = inside ? cage_slice_locate(slice, to) : CAGE_COVERED;
-            if (there == CAGE_COVERED || !cage_check_leg(&proof->scene, proof->result.pivot, q, at, to, 0))
+            if (there == CAGE_COVERED || !cage_certify_leg(&proof->scene, proof->result.pivot, q, at, to, 0))
                 continue;
             *label = there;
             for (int32_t k = 0; k < 3; k++)

@@ -1,9 +1,9 @@
-/* check: is a motion free of collision? Shares no geometry with the search.
+/* certify: is a motion free of collision? Shares no geometry with the search.
  *
  * Object balls are placed by dividing exact integers, R(q) y = M(q) y / |q|^2 to the nearest grid point: off by less than 1
  * unit, so a distance that is 1 unit larger than needed is large enough. During a turn about the pivot along
  * the shorter arc (at most 90 degrees between the quaternions) a ball is never farther from where it began than where it ends. */
-#include "check.h"
+#include "certify.h"
 #include "body.h"
 #include "wide.h"
 
@@ -64,7 +64,7 @@ static bool segment_clear(const int32_t a[3], const int32_t b[3], const int64_t 
     return cage_i256_sign(cage_i256_sub(excess, cage_i256_mul(along, along))) >= 0;
 }
 
-bool cage_check_leg(const cage_scene *scene, const int32_t pivot[3], const int32_t q[4], const int32_t a[3], const int32_t b[3],
+bool cage_certify_leg(const cage_scene *scene, const int32_t pivot[3], const int32_t q[4], const int32_t a[3], const int32_t b[3],
                     int32_t spare)
 {
     for (int32_t i = 0; i < scene->object.outer_count; i++) {
@@ -169,10 +169,10 @@ static bool end_clear(const cage_scene *scene, const int32_t pivot[3], const cag
             return false;
         exact = exact && cage_i128_sign(off) == 0;
     }
-    return same_rotation(pose->q, at->q) && cage_check_leg(scene, pivot, at->q, at->x, at->x, exact ? 0 : 1);
+    return same_rotation(pose->q, at->q) && cage_certify_leg(scene, pivot, at->q, at->x, at->x, exact ? 0 : 1);
 }
 
-void cage_check_extent(const cage_scene *scene, int32_t axis, int32_t *low, int32_t *high)
+void cage_certify_extent(const cage_scene *scene, int32_t axis, int32_t *low, int32_t *high)
 {
     *low = INT32_MAX;
     *high = INT32_MIN;
@@ -184,7 +184,7 @@ void cage_check_extent(const cage_scene *scene, int32_t axis, int32_t *low, int3
     }
 }
 
-int32_t cage_check_size(const cage_scene *scene, const int32_t pivot[3])
+int32_t cage_certify_size(const cage_scene *scene, const int32_t pivot[3])
 {
     int32_t most = 0;
     for (int32_t i = 0; i < scene->object.outer_count; i++) {
@@ -196,14 +196,13 @@ int32_t cage_check_size(const cage_scene *scene, const int32_t pivot[3])
     return most;
 }
 
-/* At this pose a line perpendicular to an axis separates the object, however turned, from all obstacles. */
-static bool is_beyond(const cage_scene *scene, const int32_t pivot[3], const cage_pose *at)
+bool cage_certify_beyond(const cage_scene *scene, const int32_t pivot[3], const int32_t x[3])
 {
-    int64_t size = cage_check_size(scene, pivot);
+    int64_t size = cage_certify_size(scene, pivot);
     for (int32_t axis = 0; axis < scene->dim; axis++) {
         int32_t low, high;
-        cage_check_extent(scene, axis, &low, &high);
-        if (low > high || at->x[axis] - size >= high || at->x[axis] + size <= low)
+        cage_certify_extent(scene, axis, &low, &high);
+        if (low > high || x[axis] - size >= high || x[axis] + size <= low)
             return true;
     }
     return false;
@@ -243,11 +242,11 @@ int32_t cage_path_check(const cage_scene *scene, const cage_pose *start, const c
         const cage_pose *a = &path[n], *b = &path[n + 1];
         bool clear = false;
         if (same_rotation(a->q, b->q))
-            clear = cage_check_leg(scene, pivot, a->q, a->x, b->x, 0);
+            clear = cage_certify_leg(scene, pivot, a->q, a->x, b->x, 0);
         else if (same_place(a->x, b->x))
             clear = turn_clear(scene, pivot, a->x, a->q, b->q);
         if (!clear)
             return 0;
     }
-    return goal ? end_clear(scene, pivot, goal, &path[count - 1]) : is_beyond(scene, pivot, &path[count - 1]);
+    return goal ? end_clear(scene, pivot, goal, &path[count - 1]) : cage_certify_beyond(scene, pivot, path[count - 1].x);
 }

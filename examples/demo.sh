@@ -1,0 +1,79 @@
+#!/bin/sh
+# Proves the example scenes and prints one table; pictures and full answers go to a folder.
+# usage: sh examples/demo.sh COMMAND FOLDER       exit status 1 if any verdict is not the one expected
+
+command=${1:-build/cage}
+folder=${2:-build/demo}
+examples=$(dirname "$0")
+failed=0
+
+mkdir -p "$folder" || exit 1
+
+# The value of a name in a JSON answer, one line each.
+value() {
+    sed -n "s/^  \"$2\": \"*\\([^\"]*\\)\"*,\$/\\1/p" "$1"
+}
+
+# A pose of the walls by its name.
+at() {
+    awk -v name="$1" '$1 == name { print $2 }' "$examples/walls/poses.txt"
+}
+
+row() {
+    printf '%-16s %-28s %-13s %-13s %13s %8s  %s\n' "$@"
+}
+
+# scene, query in words, expected verdict, name of the picture, then options of cage prove
+ask() {
+    scene=$1 query=$2 expected=$3 name=$4
+    shift 4
+    if "$command" prove "$@" --json --quiet --svg "$folder/$name.svg" >"$folder/$name.json"; then
+        verdict=$(value "$folder/$name.json" verdict)
+    else
+        verdict=error
+    fi
+    seconds=$(value "$folder/$name.json" seconds)
+    slices=$(value "$folder/$name.json" slices | tr -d '[] ' | tr ',' '+')
+    row "$scene" "$query" "$verdict" "$expected" "$slices" "$(printf '%.3f' "${seconds:-0}")" "$folder/$name.svg"
+    [ "$verdict" = "$expected" ] || failed=$((failed + 1))
+}
+
+# radius, expected verdict, start, [goal]
+walls() {
+    goal=${4:+ to $4}
+    ask "walls, R = $1" "$3$goal" "$2" "walls_R$1_$3${4:+_to_$4}" --object "$examples/walls/plus.xyzr" \
+        --obstacles "$examples/walls/walls_R$1.xyzr" --start "$(at "$3")" ${4:+--goal "$(at "$4")"}
+}
+
+# folder, object, obstacles, expected verdict; all start at 0,0,0
+small() {
+    ask "$1" "$2 in $3" "$4" "$1_$3" --object "$examples/$1/$2.xyzr" --obstacles "$examples/$1/$3.xyzr" --start 0,0,0
+}
+
+row scene query verdict expected "slices in+out" seconds picture
+walls 4 CAGED hall
+walls 4 CAGED chamber
+walls 4 CAGED cubby
+walls 4 FREE outside_top
+walls 4 DISCONNECTED chamber hall
+walls 4 DISCONNECTED cubby hall
+walls 4 DISCONNECTED cubby outside_top
+walls 4 CONNECTED hall_left hall_right
+walls 4 CONNECTED outside_left outside_top
+walls 10 CAGED hall
+walls 10 CONNECTED chamber hall
+walls 10 DISCONNECTED cubby hall
+walls 15 CAGED hall
+walls 15 CONNECTED cubby chamber
+small hooked_t t slot_tight CAGED
+small hooked_t t slot_hooked CAGED
+small hooked_t t slot_wide FREE
+small grasp part fingers_closed CAGED
+small grasp part fingers_open FREE
+small key key lock_locked CAGED
+small key key lock_open FREE
+
+if [ "$failed" -gt 0 ]; then
+    echo "$failed of the verdicts are not the ones expected" >&2
+    exit 1
+fi

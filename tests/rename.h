@@ -1,0 +1,32 @@
+/* rename.h: gives every global name of wide and predicate the prefix PREFIX, for a second build beside the first.
+ *
+ * A name that is missing here shows as a multiple definition when a test is linked. */
+#ifndef RENAME_H
+#define RENAME_H
+
+#define RENAME_JOIN(a, b) a##b
+#define RENAME_WITH(a, b) RENAME_JOIN(a, b)
+#define RENAME(name) RENAME_WITH(PREFIX, name)
+
+#define cage_u128_bits RENAME(u128_bits)
+#define cage_u128_divide RENAME(u128_divide)
+#define cage_i128_nearest RENAME(i128_nearest)
+#define cage_i128_floor RENAME(i128_floor)
+#define cage_u128_root RENAME(u128_root)
+#define cage_i256_mul RENAME(i256_mul)
+#define cage_i256_add RENAME(i256_add)
+#define cage_i256_sub RENAME(i256_sub)
+#define cage_i256_sign RENAME(i256_sign)
+
+#define CAGE_FACE_2D RENAME(face_2d)
+#define CAGE_FACE_3D RENAME(face_3d)
+#define cage_norm_compare RENAME(norm_compare)
+#define cage_simplex_volume RENAME(simplex_volume)
+#define cage_orthocentre RENAME(orthocentre)
+#define cage_centre_power RENAME(centre_power)
+#define cage_centre_side RENAME(centre_side)
+#define cage_facet_power RENAME(facet_power)
+#define cage_facet_attached RENAME(facet_attached)
+#define cage_facet_covered RENAME(facet_covered)
+
+#endif
