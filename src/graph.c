@@ -113,6 +113,7 @@ static void add_edge(struct cage_edge *edge, struct cage_node *from, struct cage
 {
     memcpy(edge->x, x, sizeof edge->x);
     edge->to = to;
+    edge->banned = 0;
     edge->next = from->edges;
     from->edges = edge;
 }

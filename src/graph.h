@@ -19,19 +19,19 @@ struct cage_node {
     int32_t component;
     int32_t seen;   /* the search that reached it last */
     int32_t queued; /* in the queue now */
-    int32_t banned; /* no search may pass it */
     int32_t inside; /* of an outer node: the inner component that holds it, CAGE_COVERED if that is not known */
     struct cage_edge *edges;
     struct cage_node *next;       /* in the queue */
     struct cage_node *next_open;  /* in the list of nodes whose cell is not glued all around */
     struct cage_node *from;       /* how it was reached */
-    const struct cage_edge *via;
+    struct cage_edge *via;
 };
 
 struct cage_edge {
     struct cage_edge *next;
     struct cage_node *to;
-    int32_t x[3]; /* a common point: see struct cage_touch */
+    int32_t x[3];   /* a common point: see struct cage_touch */
+    int32_t banned; /* no search may use it */
 };
 
 /* The fact that a cell was glued with another. */

@@ -55,10 +55,11 @@ int32_t cage_search_ends(struct cage_proof *proof, int32_t side);
 void cage_search_anew(struct cage_proof *proof, int32_t side);
 
 /* Which cell of the inner way to cut: where the outer search stops, the coarser of the last cell it reached and the first
- * it did not; else the coarsest. -1: none can be cut. *stop: the node of the way where the outer search stops. */
+ * it did not; if neither can be cut, the coarsest beyond. (Up to there the way is real: nothing to be gained.) -1: none
+ * can be cut. *stop: the node of the way where the outer search stops. */
 int32_t cage_refine_choose(const struct cage_proof *proof, struct cage_node *target, struct cage_node **stop);
 
-/* Without an inner side: the coarsest leaf; -1: none can be cut. */
+/* Without an inner way: the coarsest leaf that the outer search has reached, or the coarsest of all; -1: none can be cut. */
 int32_t cage_refine_coarsest(const struct cage_proof *proof);
 
 /* Reserve the memory that is left for a path along the outer way, which ends at proof->way. */

@@ -15,6 +15,9 @@
 
 enum { START, INNER, OUTER, REFINE, PATH, DONE };
 
+/* Without a way to follow, cells are cut evenly; that stops so many levels before the finest. */
+enum { UNGUIDED = 3 };
+
 static int32_t finish(struct cage_proof *proof, int32_t verdict, int32_t reason)
 {
     proof->result.verdict = verdict;
@@ -23,7 +26,7 @@ static int32_t finish(struct cage_proof *proof, int32_t verdict, int32_t reason)
     return CAGE_OK;
 }
 
-/* The inner side can do no more: one last outer search over all cells there are. */
+/* The inner side can do no more: outer searches over all cells, cut evenly where they have come. */
 static void last_resort(struct cage_proof *proof, int32_t reason)
 {
     proof->hopeless = reason;
@@ -35,31 +38,29 @@ static void last_resort(struct cage_proof *proof, int32_t reason)
 static int32_t refine(struct cage_proof *proof)
 {
     bool inner = proof->limits.side & CAGE_SIDE_INNER, outer = proof->limits.side & CAGE_SIDE_OUTER;
+    bool guided = inner && (!proof->hopeless || proof->corridor > 0);
     struct cage_node *stop = NULL;
-    int32_t cell = inner ? cage_refine_choose(proof, proof->way, &stop) : cage_refine_coarsest(proof);
-    if (cell >= 0) {
-        if (!cage_graph_refine(&proof->graph, cell)) {
-            if (!inner || !outer)
-                return finish(proof, CAGE_UNDEFINED, CAGE_REASON_CELLS);
-            last_resort(proof, CAGE_REASON_CELLS);
-            return CAGE_OK;
-        }
+    int32_t cell = guided ? cage_refine_choose(proof, proof->way, &stop) : cage_refine_coarsest(proof);
+    if (inner && !guided && cell >= 0 && proof->graph.cell[cell].cell.level + UNGUIDED >= proof->limits.max_level)
+        cell = -1;
+    if (cell >= 0 && cage_graph_refine(&proof->graph, cell)) {
         proof->result.level = proof->graph.level;
         proof->result.cells = proof->graph.cells - CAGE_CELL_ROOT;
+    } else if (!guided || !outer) {
+        return finish(proof, CAGE_UNDEFINED, cell >= 0 ? CAGE_REASON_CELLS : CAGE_REASON_LEVEL);
+    } else if (cell >= 0 || !stop->via) {
+        last_resort(proof, cell >= 0 ? CAGE_REASON_CELLS : CAGE_REASON_LEVEL);
+        return CAGE_OK;
     } else {
         /* This way is as fine as it may be. It may be closed all the same, but another may be open. */
-        if (!inner || !outer)
-            return finish(proof, CAGE_UNDEFINED, CAGE_REASON_LEVEL);
         proof->hopeless = CAGE_REASON_LEVEL;
-        stop->banned = 1;
+        stop->via->banned = 1;
     }
     cage_search_anew(proof, CAGE_INNER);
     cage_search_anew(proof, CAGE_OUTER);
-    proof->phase = inner ? INNER : OUTER;
+    proof->phase = guided ? INNER : OUTER;
     return CAGE_OK;
 }
-
-/* ---- the phases ----------------------------------------------------------------------------------- */
 
 static int32_t step_start(struct cage_proof *proof)
 {
@@ -109,8 +110,6 @@ static int32_t step_outer(struct cage_proof *proof)
     proof->way = way;
     if (done != CAGE_CLOSED)
         return done;
-    if (proof->hopeless && proof->corridor == 0)
-        return finish(proof, CAGE_UNDEFINED, proof->hopeless);
     proof->phase = REFINE;
     return CAGE_OK;
 }

@@ -16,32 +16,47 @@ static bool outer_reached(const struct cage_proof *proof, const struct cage_node
     return false;
 }
 
+static bool coarser(const struct cage_proof *proof, int32_t cell, int32_t than)
+{
+    return refinable(proof, cell) && (than < 0 || proof->graph.cell[cell].cell.level < proof->graph.cell[than].cell.level);
+}
+
 int32_t cage_refine_choose(const struct cage_proof *proof, struct cage_node *target, struct cage_node **stop)
 {
-    int32_t coarsest = -1, at_stop = -1;
-    *stop = target;
+    int32_t coarsest = -1, at_stop = -1, beyond = -1;
     for (struct cage_node *node = target; node; node = node->from) {
-        int32_t level = proof->graph.cell[node->cell].cell.level;
-        if (refinable(proof, node->cell) && (coarsest < 0 || level < proof->graph.cell[coarsest].cell.level))
+        if (coarser(proof, node->cell, coarsest))
             coarsest = node->cell;
-        if (!(proof->limits.side & CAGE_SIDE_OUTER) || (node != target && outer_reached(proof, node)))
+        if ((proof->limits.side & CAGE_SIDE_OUTER) && node != target && outer_reached(proof, node))
             continue;
         *stop = node;
-        at_stop = refinable(proof, node->cell) ? node->cell : -1;
-        if (node->from && refinable(proof, node->from->cell) &&
-            (at_stop < 0 || proof->graph.cell[node->from->cell].cell.level < proof->graph.cell[at_stop].cell.level))
+        beyond = coarsest;
+        at_stop = coarser(proof, node->cell, -1) ? node->cell : -1;
+        if (node->from && coarser(proof, node->from->cell, at_stop))
             at_stop = node->from->cell;
     }
-    return at_stop >= 0 ? at_stop : coarsest;
+    return at_stop >= 0 ? at_stop : beyond;
+}
+
+static bool is_reached(const struct cage_proof *proof, int32_t side, int32_t cell)
+{
+    const struct cage_facts *facts = &proof->graph.cell[cell].facts[side];
+    for (int32_t k = 0; k < facts->nodes; k++)
+        if (facts->node[k].seen == proof->reach[side].number)
+            return true;
+    return false;
 }
 
 int32_t cage_refine_coarsest(const struct cage_proof *proof)
 {
-    int32_t best = -1;
-    for (int32_t cell = CAGE_CELL_ROOT; cell < proof->graph.cells; cell++)
-        if (proof->graph.cell[cell].child == 0 && refinable(proof, cell) &&
-            (best < 0 || proof->graph.cell[cell].cell.level < proof->graph.cell[best].cell.level))
+    int32_t best = -1, none = -1;
+    for (int32_t cell = CAGE_CELL_ROOT; cell < proof->graph.cells; cell++) {
+        if (proof->graph.cell[cell].child != 0)
+            continue;
+        if (coarser(proof, cell, none))
+            none = cell;
+        if (coarser(proof, cell, best) && is_reached(proof, CAGE_OUTER, cell))
             best = cell;
-    return best;
+    }
+    return best >= 0 ? best : none;
 }
-

@@ -115,10 +115,10 @@ static void enqueue(struct cage_reach *reach, struct cage_node *node)
     reach->tail = node;
 }
 
-static void discover(struct cage_proof *proof, int32_t side, struct cage_node *node, struct cage_node *from, const struct cage_edge *via)
+static void discover(struct cage_proof *proof, int32_t side, struct cage_node *node, struct cage_node *from, struct cage_edge *via)
 {
     struct cage_reach *reach = &proof->reach[side];
-    if (node->seen == reach->number || node->banned || !is_live(proof, node))
+    if (node->seen == reach->number || !is_live(proof, node))
         return;
     node->seen = reach->number;
     node->from = from;
@@ -165,8 +165,9 @@ static struct cage_node *follow(struct cage_proof *proof, int32_t side)
             return node;
         reach->head = node->next;
         node->queued = 0;
-        for (const struct cage_edge *edge = node->edges; edge; edge = edge->next)
-            discover(proof, side, edge->to, node, edge);
+        for (struct cage_edge *edge = node->edges; edge; edge = edge->next)
+            if (!edge->banned)
+                discover(proof, side, edge->to, node, edge);
     }
     return NULL;
 }

@@ -119,7 +119,7 @@ END_TEST
 /* Inner balls smaller and outer balls larger than each other: proofs must keep to their own side. */
 START_TEST(each_side_keeps_to_its_balls)
 {
-    int32_t n = scenes_wanted() / 5 + 1;
+    int32_t n = scenes_wanted() / 10 + 1;
     for (int32_t seed = 0; seed < n; seed++) {
         asked a;
         scene inner;
@@ -143,7 +143,7 @@ END_TEST
 
 START_TEST(single_sides_agree)
 {
-    int32_t n = scenes_wanted() / 5 + 1, decided = 0, both = 0;
+    int32_t n = scenes_wanted() / 10 + 1, decided = 0, both = 0;
     for (int32_t seed = 0; seed < n; seed++) {
         asked a;
         cage_result r, one;
@@ -196,7 +196,7 @@ static void compare(const asked *a, const asked *b, const char *what, int *unequ
 
 START_TEST(moved_scenes_answer_alike)
 {
-    int32_t n = scenes_wanted() / 5 + 1;
+    int32_t n = scenes_wanted() / 10 + 1;
     int unequal = 0;
     for (int32_t seed = 0; seed < n; seed++) {
         asked a, b;
@@ -212,7 +212,7 @@ END_TEST
 
 START_TEST(swapped_ends_answer_alike)
 {
-    int32_t n = scenes_wanted() / 4 + 1;
+    int32_t n = scenes_wanted() / 5 + 1;
     int unequal = 0;
     for (int32_t seed = 0; seed < n; seed++) {
         asked a, b;
@@ -239,7 +239,7 @@ static void reverse(cage_ball *balls, int32_t n)
 
 START_TEST(order_of_balls_does_not_matter)
 {
-    int32_t n = scenes_wanted() / 10 + 1;
+    int32_t n = scenes_wanted() / 20 + 1;
     int unequal = 0;
     for (int32_t seed = 0; seed < n; seed++) {
         asked a, b;
@@ -279,7 +279,7 @@ static void prove_in_pieces(const asked *a, uint64_t *rng, int32_t most, cage_re
 
 START_TEST(portions_do_not_matter)
 {
-    int32_t n = scenes_wanted() / 5 + 1;
+    int32_t n = scenes_wanted() / 10 + 1;
     uint64_t rng = 3;
     for (int32_t seed = 0; seed < n; seed++) {
         asked a;
@@ -342,13 +342,14 @@ static void sweep(uint64_t seed, size_t *runs, size_t *answered)
     asked a;
     cage_result right;
     ask_random(&a, seed);
+    a.limits.max_cells = 128; /* room for cells is taken at once */
     prove(&a, 0, block, &right);
     size_t enough = enough_for(&a, &right), bytes = 0;
     ck_assert_msg(enough < SWEEP, "seed %lu is not small", (unsigned long)seed);
     while (bytes < 2 * enough) {
         *answered += prove_squeezed(&a, bytes, *runs % 16, &right) == CAGE_OK;
         ++*runs;
-        bytes += bytes < 4096 ? 1 : enough / 499 + *runs % 7 + 1;
+        bytes += bytes < 8192 ? 1 : enough / 299 + *runs % 7 + 1;
     }
     for (bytes = enough - 40; bytes < enough + 40; bytes++) {
         prove_squeezed(&a, bytes, bytes % 8, &right);
@@ -358,7 +359,7 @@ static void sweep(uint64_t seed, size_t *runs, size_t *answered)
 START_TEST(any_block_gives_the_error_or_the_answer)
 {
     size_t runs = 0, answered = 0;
-    int32_t scenes = scenes_wanted() < 100 ? 2 : 8;
+    int32_t scenes = scenes_wanted() < 100 ? 1 : 6;
     for (int32_t k = 0; k < scenes; k++) {
         sweep(k % 2 ? (uint64_t)(7 + 9 * k) : (uint64_t)(8 + 9 * k), &runs, &answered); /* pinch, fingers: small */
     }
@@ -370,7 +371,7 @@ END_TEST
 /* What an error says is needed leads to an answer in a few rounds. */
 START_TEST(needed_bytes_lead_to_the_answer)
 {
-    int32_t n = scenes_wanted() / 10 + 1;
+    int32_t n = scenes_wanted() / 20 + 1;
     for (int32_t seed = 0; seed < n; seed++) {
         asked a;
         cage_result r, t;
@@ -390,23 +391,28 @@ START_TEST(needed_bytes_lead_to_the_answer)
 }
 END_TEST
 
+static void add(Suite *suite, const char *name, const TTest *one, const TTest *two, const TTest *three)
+{
+    const TTest *tests[3] = {one, two, three};
+    TCase *group = tcase_create(name);
+    tcase_set_timeout(group, 0);
+    tcase_add_checked_fixture(group, blocks_make, blocks_drop);
+    for (int k = 0; k < 3; k++) {
+        if (tests[k]) {
+            tcase_add_test(group, tests[k]);
+        }
+    }
+    suite_add_tcase(suite, group);
+}
+
 int main(void)
 {
     Suite *suite = suite_create("answers");
-    TCase *tests = tcase_create("answers");
-    tcase_set_timeout(tests, 0);
-    tcase_add_checked_fixture(tests, blocks_make, blocks_drop);
-    tcase_add_test(tests, answers_are_the_oracles);
-    tcase_add_test(tests, each_side_keeps_to_its_balls);
-    tcase_add_test(tests, single_sides_agree);
-    tcase_add_test(tests, few_balls);
-    tcase_add_test(tests, moved_scenes_answer_alike);
-    tcase_add_test(tests, swapped_ends_answer_alike);
-    tcase_add_test(tests, order_of_balls_does_not_matter);
-    tcase_add_test(tests, portions_do_not_matter);
-    tcase_add_test(tests, any_block_gives_the_error_or_the_answer);
-    tcase_add_test(tests, needed_bytes_lead_to_the_answer);
-    suite_add_tcase(suite, tests);
+    add(suite, "oracle", answers_are_the_oracles, few_balls, NULL);
+    add(suite, "sides", each_side_keeps_to_its_balls, single_sides_agree, NULL);
+    add(suite, "alike", moved_scenes_answer_alike, swapped_ends_answer_alike, order_of_balls_does_not_matter);
+    add(suite, "portions", portions_do_not_matter, NULL, NULL);
+    add(suite, "memory", any_block_gives_the_error_or_the_answer, needed_bytes_lead_to_the_answer, NULL);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
     int failed = srunner_ntests_failed(runner);
