@@ -16,7 +16,7 @@ PIC_O   = $(CORE:src/%.c=build/pic/%.o)
 HOST_O  = $(HOST:src/host/%.c=build/host/%.o)
 
 .DEFAULT_GOAL = all
-.PHONY: all lib shared demo test bench bench-peers install uninstall clean help
+.PHONY: all lib shared demo test soak bench bench-peers install uninstall clean help
 
 all: build/cage ## the command build/cage and the static library
 lib: build/libcage.a ## the static library, from freestanding C99
@@ -47,3 +47,87 @@ build/cage: $(HOST_O) build/libcage.a
 
 demo: build/cage ## prove the example scenes: verdicts as a table, pictures in build/demo
 	sh examples/demo.sh build/cage build/demo
+
+# ---- tests: each tests/test_*.c is a program of its own, with the helpers beside it ----------------
+
+TESTS   = $(sort $(wildcard tests/test_*.c))
+HELPERS = $(filter-out tests/soak.c $(TESTS),$(sort $(wildcard tests/*.c)))
+TEST_I  = -iquote src -iquote tests -Iinclude
+SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all
+
+# $(1): directory of objects, $(2): more flags
+define test_build
+$(1)/core/%.o: src/%.c $$(HEADERS) Makefile
+	@mkdir -p $$(@D)
+	$$(CC) -std=c99 $$(CFLAGS) $(2) $$(WARN) -Iinclude -c $$< -o $$@
+$(1)/%.o: tests/%.c $$(HEADERS) $$(wildcard tests/*.h) $$(CORE) Makefile
+	@mkdir -p $$(@D)
+	$$(CC) -std=c99 -D_POSIX_C_SOURCE=200809L $$(CFLAGS) $(2) -Wall -Wextra -Wconversion -Wshadow $$(TEST_I) -c $$< -o $$@
+$(1)/libhelpers.a: $$(HELPERS:tests/%.c=$(1)/%.o) $$(CORE:src/%.c=$(1)/core/%.o)
+	rm -f $$@
+	$$(AR) rcs $$@ $$^
+$(1)/test_%: $(1)/test_%.o $(1)/libhelpers.a
+	$$(CC) $$(CFLAGS) $(2) $$< $(1)/libhelpers.a $$$$(pkg-config --libs check) -lgmp -lm -o $$@
+endef
+$(eval $(call test_build,build/test,))
+$(eval $(call test_build,build/sanitized,$(SANITIZE)))
+.SECONDARY:
+
+TEST_BIN = $(TESTS:tests/%.c=build/test/%)
+SANI_BIN = $(TESTS:tests/%.c=build/sanitized/%)
+
+test: build/cage lib shared ## install what the tests need (when it may), build and run everything
+	sh tests/deps.sh
+	$(MAKE) --no-print-directory $(TEST_BIN) $(SANI_BIN) build/prove_in_c
+	sh tests/run.sh
+
+build/prove_in_c: examples/prove_in_c.c build/libcage.a
+	$(CC) -std=c99 $(CFLAGS) $(WARN) -Iinclude $< build/libcage.a -o $@
+
+build/soak: tests/soak.c $(HELPERS) $(HEADERS) build/test/libhelpers.a
+	$(CC) -std=c99 -D_POSIX_C_SOURCE=200809L $(CFLAGS) $(TEST_I) $< build/test/libhelpers.a -lm -o $@
+
+soak: build/soak ## hunt for contradictions: build/soak FROM TO
+	build/soak 1 2000
+
+# ---- benchmarks ------------------------------------------------------------------------------------
+
+build/bench/bench: $(wildcard tests/bench/*.c tests/bench/*.h) build/libcage.a
+	@mkdir -p $(@D)
+	$(CC) -std=c99 -D_POSIX_C_SOURCE=200809L $(CFLAGS) -iquote src -Iinclude $(wildcard tests/bench/*.c) build/libcage.a -lm -o $@
+
+build/bench/peer: tests/bench/peer_cgal.cpp tests/bench/sets.h
+	@mkdir -p $(@D)
+	$(CXX) -std=c++17 -O3 -march=x86-64-v3 -Iinclude $< -lgmp -lmpfr -o $@
+
+bench: build/bench/bench ## time triangulations, slices and proofs
+	build/bench/bench
+
+bench-peers: build/bench/bench build/bench/peer ## the same beside CGAL, pair by pair (needs libcgal-dev)
+	sh tests/bench/compare.sh build/bench/bench build/bench/peer
+
+# ---- installation ----------------------------------------------------------------------------------
+
+build/libcage.pc: Makefile include/cage.h
+	@mkdir -p $(@D)
+	printf '%s\n' 'prefix=$(PREFIX)' 'libdir=$${prefix}/lib' 'includedir=$${prefix}/include' '' 'Name: libcage' \
+	  'Description: Prove that a rigid object is caged, or find its way out' 'Version: $(VERSION)' \
+	  'Libs: -L$${libdir} -lcage' 'Cflags: -I$${includedir}' > $@
+
+install: build/cage lib shared build/libcage.pc ## library, header, pkg-config file, and the command as cage-prove
+	mkdir -p $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/lib/pkgconfig
+	cp build/cage $(DESTDIR)$(PREFIX)/bin/cage-prove
+	cp include/cage.h $(DESTDIR)$(PREFIX)/include/
+	cp build/libcage.a build/libcage.so.$(ABI) $(DESTDIR)$(PREFIX)/lib/
+	ln -sf libcage.so.$(ABI) $(DESTDIR)$(PREFIX)/lib/libcage.so
+	cp build/libcage.pc $(DESTDIR)$(PREFIX)/lib/pkgconfig/
+
+uninstall: ## remove what install has put there
+	rm -f $(DESTDIR)$(PREFIX)/bin/cage-prove $(DESTDIR)$(PREFIX)/include/cage.h $(DESTDIR)$(PREFIX)/lib/libcage.a \
+	  $(DESTDIR)$(PREFIX)/lib/libcage.so $(DESTDIR)$(PREFIX)/lib/libcage.so.$(ABI) $(DESTDIR)$(PREFIX)/lib/pkgconfig/libcage.pc
+
+clean: ## remove build
+	rm -rf build
+
+help: ## this list
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1|\2/p' Makefile | awk -F'|' '{printf "%-20s %s\n", $$1, $$2}'
