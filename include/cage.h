@@ -174,7 +174,7 @@ int32_t cage_prove_region(cage_proof *proof, const int32_t origin[3], int32_t pi
  * to a grid point less than 1 unit away; with a goal the last pose is the goal, likewise. Without one, at the last pose
  * the whole object is beyond an axis-parallel line (plane) that has all obstacles on its other side.
  *
- * Coordinates are within 2^30 (beyond CAGE_REACH only far outside).
+ * Coordinates may be beyond CAGE_REACH, far outside.
  *
  * 1 when the whole motion, the moves from start and to goal included, is proved free of collision for the outer
  * balls as given, continuous in time; 0 when it is not; or an error. Shares no code with the search. */

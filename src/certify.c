@@ -39,8 +39,8 @@ static bool place(const int32_t q[4], const cage_ball *ball, const int32_t pivot
     return exact;
 }
 
-/* Is the point c at least `apart` away from the segment a b? |differences| < 2^31.6 in the plane: products < 2^64.2 are kept
- * in 128 bits, and cross^2 < 2^127 by cross < 2^63.2 (|b - a| < 2^31.5, |c - a| < 2^31.6, in the plane). */
+/* Is the point c at least `apart` away from the segment a b? |differences| < 2^33, so sums of three squares < 2^68 in 128 bits, and
+ * their products < 2^136 in 256. */
 static bool segment_clear(const int32_t a[3], const int32_t b[3], const int64_t c[3], int64_t apart)
 {
     int64_t u[3], v[3], w[3];
@@ -228,9 +228,6 @@ int32_t cage_path_check(const cage_scene *scene, const cage_pose *start, const c
         return error;
     for (int32_t n = 0; n < count; n++) {
         const cage_pose *at = &path[n];
-        for (int32_t i = 0; i < 3; i++)
-            if (at->x[i] < -PLACE_LIMIT || at->x[i] > PLACE_LIMIT)
-                return CAGE_ERROR_RANGE;
         cage_pose turn_only = {{0, 0, 0}, {at->q[0], at->q[1], at->q[2], at->q[3]}};
         error = cage_pose_check(scene->dim, &turn_only);
         if (error != CAGE_OK)

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 
 /* May the pivot move from a to b on a straight line at rotation q without a collision of outer balls? spare: units by which every
- * distance must be larger still. |coordinates| <= 2^30 in the plane. True is a proof. */
+ * distance must be larger still. True is a proof. */
 bool cage_certify_leg(const cage_scene *scene, const int32_t pivot[3], const int32_t q[4], const int32_t a[3], const int32_t b[3],
                     int32_t spare);
 

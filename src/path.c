@@ -6,7 +6,7 @@
 #include "certify.h"
 #include "proof.h"
 
-enum { FAR_2D = 15 << 26, FAR_3D = 1 << 25, CLIPS = 64 };
+enum { FAR_2D = 3 << 29, FAR_3D = 1 << 25, CLIPS = 64 };
 
 /* Directions in which the sentinels lie from the centre of their simplex: from a point that is nearest to a sentinel, the
  * ray in its direction is free. */
@@ -111,11 +111,13 @@ static struct point beyond(const struct cage_proof *proof, const struct cage_tri
     const int32_t *ray = t->dim == 2 ? RAY_2D[sentinel] : RAY_3D[sentinel];
     int32_t axis = ray[0] ? 0 : 1, low, high, size = cage_certify_size(&proof->scene, proof->result.pivot);
     cage_certify_extent(&proof->scene, axis, &low, &high);
-    /* Obstacles and object are within CAGE_REACH, the point within FAR: the sums stay below 2^30 in the plane. */
+    /* A point that is nearest to this sentinel is not far on the other side of it: the sums stay below 2^31. */
     int64_t missing = low > high ? 0 : ray[axis] > 0 ? (int64_t)high + size - from.x[axis] : (int64_t)from.x[axis] - (low - size);
     int64_t pace = ray[axis] > 0 ? ray[axis] : -ray[axis], times = missing > 0 ? (missing + pace - 1) / pace : 0;
-    for (int32_t k = 0; k < 3; k++)
-        from.x[k] += (int32_t)(ray[k] * times);
+    for (int32_t k = 0; k < 3; k++) {
+        int64_t at = from.x[k] + ray[k] * times;
+        from.x[k] = at < INT32_MIN ? INT32_MIN : at > INT32_MAX ? INT32_MAX : (int32_t)at; /* if it did not, the leg is not clear */
+    }
     return from;
 }
 

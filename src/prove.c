@@ -163,7 +163,7 @@ static int32_t limits_check(const cage_limits *limits)
     return limits->start_level < -1 || limits->start_level > limits->max_level ? CAGE_ERROR_ARGUMENT : CAGE_OK;
 }
 
-/* The coarsest level at which the object's farthest ball moves by no more than half the radius of a usual collision ball: in coarser
+/* The coarsest level at which the object's farthest ball moves by no more than a third of the radius of a usual collision ball: in coarser
  * cells the inner balls shrink to little, and what is left has holes everywhere. */
 static int32_t first_level(const struct cage_proof *proof)
 {
@@ -182,7 +182,7 @@ static int32_t first_level(const struct cage_proof *proof)
         sum += side->object[a].r;
     radius += sum / side->objects;
     struct cage_cell cell = {0, 0, {0, 0, 0}};
-    while (level < proof->limits.max_level && cage_displacement(proof->graph.fibre->turn(&cell), reach) > radius / 2) {
+    while (level < proof->limits.max_level && cage_displacement(proof->graph.fibre->turn(&cell), reach) > radius / 3) {
         proof->graph.fibre->child(&cell, 0, &cell);
         level++;
     }
