@@ -18,6 +18,8 @@ bool cage_graph_refine(struct cage_graph *graph, int32_t cell)
 {
     if (graph->cells + graph->fibre->children > graph->capacity)
         return false;
+    for (int32_t next = -1; (next = cage_graph_neighbour(graph, cell, next)) >= 0;)
+        graph->cell[next].facts[CAGE_INNER].settled = graph->cell[next].facts[CAGE_OUTER].settled = 0;
     graph->cell[cell].child = graph->cells;
     for (int32_t i = 0; i < graph->fibre->children; i++) {
         struct cage_cell child;

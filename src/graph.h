@@ -45,6 +45,7 @@ struct cage_facts {
     struct cage_node *node; /* one for each component */
     int32_t nodes;
     struct cage_glued *glued;
+    int32_t settled; /* glued with all leaf neighbours (-1), or with those of this corridor */
     struct cage_held *held;
 };
 

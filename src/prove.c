@@ -70,6 +70,9 @@ static int32_t step_start(struct cage_proof *proof)
         return done;
     /* A search that begins outside sees everything; one that begins in a narrow place may close soon. */
     const int32_t *label = proof->label[side];
+    /* What does not collide is off the inner balls; were it not so, nothing may be concluded from it. */
+    if (side == CAGE_INNER && (label[CAGE_CELL_START] == CAGE_COVERED || (proof->graph.goal && label[CAGE_CELL_GOAL] == CAGE_COVERED)))
+        return finish(proof, CAGE_UNDEFINED, CAGE_REASON_LEVEL);
     proof->origin = proof->graph.goal && label[CAGE_CELL_START] == CAGE_OUTSIDE && label[CAGE_CELL_GOAL] != CAGE_OUTSIDE;
     proof->phase = side == CAGE_INNER ? INNER : OUTER;
     return CAGE_OK;

@@ -235,8 +235,11 @@ int32_t cage_search(struct cage_proof *proof, int32_t side)
             return CAGE_FOUND;
         if (!reach->open_head)
             return CAGE_CLOSED;
-        int32_t cell = reach->open_head->cell, other = unglued(proof, side, cell, -1);
+        int32_t cell = reach->open_head->cell, scope = side == CAGE_OUTER && proof->corridor ? proof->corridor : -1;
+        struct cage_facts *facts = &proof->graph.cell[cell].facts[side];
+        int32_t other = facts->settled == -1 || facts->settled == scope ? -1 : unglued(proof, side, cell, -1);
         if (other < 0) {
+            facts->settled = facts->settled == -1 ? -1 : scope;
             reach->open_head = reach->open_head->next_open;
             continue;
         }
