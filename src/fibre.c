@@ -31,6 +31,9 @@ static int32_t arc(const struct cage_cell *cell, int32_t *length)
     return ((cell->face << cell->level) + cell->at[0]) * *length;
 }
 
+/* Modulo the circle, a power of two. */
+static int32_t around(int32_t turn) { return turn & (CIRCLE - 1); }
+
 static void child(const struct cage_cell *cell, int32_t index, struct cage_cell *out)
 {
     *out = *cell;
@@ -41,7 +44,7 @@ static void child(const struct cage_cell *cell, int32_t index, struct cage_cell 
 static bool touch(const struct cage_cell *a, const struct cage_cell *b)
 {
     int32_t a_length, b_length, a_first = arc(a, &a_length), b_first = arc(b, &b_length);
-    return (b_first - a_first + CIRCLE) % CIRCLE <= a_length || (a_first - b_first + CIRCLE) % CIRCLE <= b_length;
+    return around(b_first - a_first) <= a_length || around(a_first - b_first) <= b_length;
 }
 
 /* The sign of the turn from a to b by less than 180 degrees of half angle: |entries| <= 2^30, value <= 2^61. */
@@ -79,7 +82,7 @@ static int64_t turn(const struct cage_cell *cell)
 static void common(const struct cage_cell *a, const struct cage_cell *b, int32_t q[4])
 {
     int32_t length, first = arc(a, &length), unused, b_first = arc(b, &unused);
-    cell_rotation(a, (b_first - first + CIRCLE) % CIRCLE == length ? 2 : 0, q);
+    cell_rotation(a, around(b_first - first) == length ? 2 : 0, q);
 }
 
 const struct cage_fibre cage_so2 = {2, 2, MAX_LEVEL, child, touch, contains, representative, turn, common};

@@ -15,7 +15,10 @@ static void lay(int32_t dim, const cage_ball *ball, int32_t count, struct cage_r
             high[k] = at[k] + ball[i].r > high[k] ? at[k] + ball[i].r : high[k];
         }
     }
-    int32_t limit = (dim == 2 ? PIXELS_2D : PIXELS_3D) - 2 * MARGIN - 1, extent = 0; /* high - low <= 2^30 */
+    int32_t pixels = dim == 2 ? PIXELS_2D : PIXELS_3D, extent = 0; /* high - low <= 2^30 */
+    while (dim == 2 && pixels > PIXELS_2D / 8 && pixels * pixels / 64 / 8 > count) /* no more words than a few for each ball */
+        pixels /= 2;
+    int32_t limit = pixels - 2 * MARGIN - 1;
     for (int32_t k = 0; k < dim; k++)
         extent = high[k] - low[k] > extent ? high[k] - low[k] : extent;
     raster->shift = 0;

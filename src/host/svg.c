@@ -27,6 +27,16 @@ void svg_box_add(svg_box *box, double x, double y, double r)
     box->top = fmax(box->top, y + r);
 }
 
+void svg_place(const host_ball *ball, const cage_pose *pose, double unit, double at[3])
+{
+    int32_t centre[3];
+    int k;
+
+    for (k = 0; k < 3; k++)
+        centre[k] = (int32_t)floor(ball->x[k] / unit + 0.5);
+    host_place(pose, centre, unit, at);
+}
+
 /* Fits a box into the area given, in pixels; returns the scene's height there. */
 double svg_fit(svg_canvas *canvas, const svg_box *box, double x, double y, double width, double height)
 {

@@ -16,6 +16,8 @@ typedef struct svg_canvas {
 
 /* ---- svg.c -------------------------------------------------------------------------------------- */
 void svg_box_add(svg_box *box, double x, double y, double r);
+/* Where a pose puts the centre of an object ball. */
+void svg_place(const host_ball *ball, const cage_pose *pose, double unit, double at[3]);
 double svg_fit(svg_canvas *canvas, const svg_box *box, double x, double y, double width, double height);
 double svg_x(const svg_canvas *canvas, double x);
 double svg_y(const svg_canvas *canvas, double y);
@@ -35,6 +37,7 @@ int svg_region(FILE *out, const svg_canvas *canvas, const host_answer *answer);
 /* ---- svg_path.c --------------------------------------------------------------------------------- */
 /* The object, faint, at poses along the path; and the line along which its pivot goes. */
 void svg_path_copies(FILE *out, const svg_canvas *canvas, const host_answer *answer);
+int svg_path_cut(const svg_canvas *canvas, const host_answer *answer); /* does it leave the view? */
 void svg_path_line(FILE *out, const svg_canvas *canvas, const host_answer *answer);
 /* The object (the symbol #object) at a pose of the user's frame, its angle in degrees. */
 void svg_object(FILE *out, const svg_canvas *canvas, const char *style, const double origin[2], double degrees);

@@ -43,6 +43,19 @@ static int visible(const svg_canvas *canvas, const stop *at)
     return at->x >= view->left && at->x <= view->right && at->y >= view->bottom && at->y <= view->top;
 }
 
+int svg_path_cut(const svg_canvas *canvas, const host_answer *answer)
+{
+    int32_t i;
+
+    for (i = 0; i < answer->result->path_count; i++) {
+        stop at = stop_at(answer, i);
+
+        if (!visible(canvas, &at))
+            return 1;
+    }
+    return 0;
+}
+
 /* How far the object moves from a to b: its pivot's way, or its farthest point's when it turns. */
 static double leg_length(const stop *a, const stop *b, double radius)
 {

@@ -17,12 +17,47 @@ double svg_object_radius(const host_answer *answer)
     return radius;
 }
 
+/* The object at that pose, and its pivot. */
 static void add_object(const host_answer *answer, const cage_pose *pose, svg_box *box)
 {
+    const host_balls *object = &answer->query->object;
+    const double unit = answer->grid->unit;
     double at[3];
+    int32_t i;
 
-    host_place(pose, answer->result->pivot, answer->grid->unit, at);
-    svg_box_add(box, at[0], at[1], svg_object_radius(answer));
+    host_place(pose, answer->result->pivot, unit, at);
+    svg_box_add(box, at[0], at[1], 0);
+    for (i = 0; i < object->count; i++) {
+        svg_place(&object->ball[i], pose, unit, at);
+        svg_box_add(box, at[0], at[1], object->ball[i].r);
+    }
+}
+
+/* Makes room for a path, beyond the box by a part of the object's radius at most. */
+static void add_path(const host_answer *answer, svg_box *box)
+{
+    const host_balls *object = &answer->query->object;
+    const cage_result *result = answer->result;
+    const double unit = answer->grid->unit, beyond = 0.3 * svg_object_radius(answer);
+    const svg_box scene = *box;
+    double at[3];
+    int32_t i, k;
+
+    for (i = 0; i < result->path_count; i++) {
+        cage_pose turn = result->path[i]; /* of the pivot's frame: its place is clamped, then its balls added */
+        double x = fmax(scene.left - beyond, fmin(scene.right + beyond, turn.x[0] * unit));
+        double y = fmax(scene.bottom - beyond, fmin(scene.top + beyond, turn.x[1] * unit));
+
+        memset(turn.x, 0, sizeof turn.x);
+        for (k = 0; k < object->count; k++) {
+            host_ball ball = object->ball[k];
+
+            ball.x[0] -= result->pivot[0] * unit;
+            ball.x[1] -= result->pivot[1] * unit;
+            svg_place(&ball, &turn, unit, at);
+            svg_box_add(box, x + at[0], y + at[1], ball.r);
+        }
+    }
 }
 
 /* Obstacles, start and goal with a margin; paths also go beyond it and are cut off there. */
@@ -39,9 +74,8 @@ void svg_plane_box(const host_answer *answer, svg_box *box)
     add_object(answer, &answer->grid->start, box);
     if (answer->query->has_goal)
         add_object(answer, &answer->grid->goal, box);
+    add_path(answer, box);
     margin = 0.03 * fmax(box->right - box->left, box->top - box->bottom);
-    if (answer->result->path_count > 0)
-        margin += 1.2 * svg_object_radius(answer);
     if (!(margin > 0))
         margin = 1; /* a scene without extent */
     box->left -= margin;
@@ -99,7 +133,7 @@ static void write_pivot(FILE *out, const svg_canvas *canvas, const host_answer *
                   svg_y(canvas, at[1]));
 }
 
-static void write_legend(FILE *out, const host_answer *answer, int region, double x, double y)
+static void write_legend(FILE *out, const svg_canvas *canvas, const host_answer *answer, int region, double x, double y)
 {
     const cage_result *result = answer->result;
     const int stuck = result->verdict == CAGE_CAGED || result->verdict == CAGE_DISCONNECTED;
@@ -111,11 +145,13 @@ static void write_legend(FILE *out, const host_answer *answer, int region, doubl
         x = svg_legend(out, x, y, "<circle cx=\"9\" r=\"7\" fill=\"#f7b267\" stroke=\"#c25e10\"/>", "goal");
     if (region)
         (void)svg_legend(out, x, y, "<rect x=\"1\" y=\"-7\" width=\"16\" height=\"14\" fill=\"#a9dca0\"/>",
-                         "all that the pivot may reach");
+                         "the pivot never leaves this");
     else if (stuck)
         (void)svg_legend(out, x, y, "", "(no memory to draw the region)");
     if (result->path_count > 0)
-        (void)svg_legend(out, x, y, "<path d=\"M0 0h18\" stroke=\"#8e2466\" stroke-width=\"2\"/>", "path of the pivot");
+        (void)svg_legend(out, x, y, "<path d=\"M0 0h18\" stroke=\"#8e2466\" stroke-width=\"2\"/>",
+                         svg_path_cut(canvas, answer) ? "path of the pivot (it goes on beyond the picture)"
+                                                      : "path of the pivot");
 }
 
 void svg_plane(FILE *out, const svg_canvas *canvas, const host_answer *answer, double x, double y)
@@ -128,6 +164,8 @@ void svg_plane(FILE *out, const svg_canvas *canvas, const host_answer *answer, d
     write_symbols(out, canvas, &answer->query->object);
     (void)fprintf(out, "<g clip-path=\"url(#view)\">\n");
     svg_path_copies(out, canvas, answer);
+    if (stuck)
+        region = svg_region(out, canvas, answer);
     write_obstacles(out, canvas, &answer->query->obstacles);
     if (answer->query->has_goal)
         write_pose(out, canvas, answer, &answer->grid->goal,
@@ -135,11 +173,9 @@ void svg_plane(FILE *out, const svg_canvas *canvas, const host_answer *answer, d
                                                              : "fill=\"#f7b267\" stroke=\"#c25e10\" opacity=\"0.8\"");
     write_pose(out, canvas, answer, &answer->grid->start,
                hit && result->reason != CAGE_REASON_GOAL ? "fill=\"#ef6a6a\" stroke=\"#a01818\" opacity=\"0.8\""
-                                                         : "fill=\"#6ea2ea\" stroke=\"#1f57b0\" opacity=\"0.8\"");
-    if (stuck)
-        region = svg_region(out, canvas, answer);
+                                                         : "fill=\"#6ea2ea\" stroke=\"#1f57b0\" opacity=\"0.65\"");
     svg_path_line(out, canvas, answer);
     write_pivot(out, canvas, answer, &answer->grid->start);
     (void)fprintf(out, "</g>\n");
-    write_legend(out, answer, region, x, y);
+    write_legend(out, canvas, answer, region, x, y);
 }

@@ -8,17 +8,6 @@
 static const int axes[3][2] = { { 0, 1 }, { 0, 2 }, { 1, 2 } };
 static const char *const names[3] = { "x, y", "x, z", "y, z" };
 
-/* Where a pose puts the centre of an object ball. */
-static void place_ball(const host_ball *ball, const cage_pose *pose, double unit, double at[3])
-{
-    int32_t centre[3];
-    int k;
-
-    for (k = 0; k < 3; k++)
-        centre[k] = (int32_t)floor(ball->x[k] / unit + 0.5);
-    host_place(pose, centre, unit, at);
-}
-
 void svg_space_box(const host_answer *answer, int view, svg_box *box)
 {
     const host_balls *obstacles = &answer->query->obstacles, *object = &answer->query->object;
@@ -31,7 +20,7 @@ void svg_space_box(const host_answer *answer, int view, svg_box *box)
     for (i = 0; i < obstacles->count; i++)
         svg_box_add(box, obstacles->ball[i].x[across], obstacles->ball[i].x[up], obstacles->ball[i].r);
     for (i = 0; i < object->count; i++) {
-        place_ball(&object->ball[i], &answer->grid->start, answer->grid->unit, at);
+        svg_place(&object->ball[i], &answer->grid->start, answer->grid->unit, at);
         svg_box_add(box, at[across], at[up], object->ball[i].r);
     }
     margin = 0.03 * fmax(box->right - box->left, box->top - box->bottom);
@@ -63,7 +52,7 @@ void svg_space(FILE *out, const svg_canvas *canvas, const host_answer *answer, i
         write_ball(out, canvas, obstacles->ball[i].x[across], obstacles->ball[i].x[up], obstacles->ball[i].r);
     (void)fprintf(out, "</g>\n<g fill=\"#2f6fd0\">\n");
     for (i = 0; i < object->count; i++) {
-        place_ball(&object->ball[i], &answer->grid->start, answer->grid->unit, at);
+        svg_place(&object->ball[i], &answer->grid->start, answer->grid->unit, at);
         write_ball(out, canvas, at[across], at[up], object->ball[i].r);
     }
     (void)fprintf(out, "</g>\n");
