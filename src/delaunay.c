@@ -7,6 +7,17 @@
 #include "delaunay.h"
 #include "order.h"
 
+#include <string.h>
+
+/* Sites around a hole that the table of ridges has room for: about 15 are usual. */
+enum { RIDGE_SITES = 64 };
+
+/* In space, the ridges of a front by their ends: entry (u, v) is the facet through p and the edge from u to v. */
+struct ridges {
+    int32_t listed[RIDGE_SITES];
+    int32_t facet[RIDGE_SITES * RIDGE_SITES];
+};
+
 /* Working state of one build. mark[s] = 2 p + conflict, for the last site p that was tested against s. */
 struct build {
     const struct cage_site *site;
@@ -14,6 +25,8 @@ struct build {
     int32_t *mark;
     int32_t *hole;  /* simplices in conflict */
     int32_t *front; /* facets between them and the others, as 4 s + i with s in the hole */
+    int32_t *number;       /* of a site in the table of ridges, if listed says so as well */
+    struct ridges *ridges; /* in space only */
     int32_t capacity;
     int32_t simplices; /* slots in use, dead ones included */
     int32_t dead;      /* first of a list of dead slots linked through v[1], or -1; a dead slot has v[0] = -1 */
@@ -89,28 +102,28 @@ static int32_t new_slot(struct build *b)
 static CAGE_INLINE int32_t carve(int32_t dim, struct build *b, int32_t p, int32_t s, int32_t *holes)
 {
     const struct cage_site *site = &b->site[p];
-    int32_t count = 1, fronts = 0;
-    b->hole[0] = s;
-    b->mark[s] = 2 * p + 1;
+    const struct cage_simplex *simplex = b->simplex;
+    int32_t *mark = b->mark, *hole = b->hole, *front = b->front;
+    int32_t count = 1, fronts = 0, capacity = b->capacity;
+    hole[0] = s;
+    mark[s] = 2 * p + 1;
     for (int32_t n = 0; n < count; n++) {
-        int32_t h = b->hole[n];
+        int32_t h = hole[n];
         for (int32_t i = 0; i <= dim; i++) {
-            int32_t twin = b->simplex[h].twin[i], other = twin >> 2;
-            if (twin != CAGE_HULL) {
-                if (b->mark[other] == 2 * p + 1)
-                    continue;
-                if (b->mark[other] != 2 * p) {
-                    bool conflict = in_conflict(dim, b, other, site);
-                    b->mark[other] = 2 * p + conflict;
-                    if (conflict) {
-                        b->hole[count++] = other;
-                        continue;
-                    }
-                }
+            int32_t twin = simplex[h].twin[i], other = twin >> 2, seen = twin == CAGE_HULL ? 2 * p : mark[other];
+            if (seen >> 1 != p) {
+                seen = 2 * p + in_conflict(dim, b, other, site);
+                mark[other] = seen;
+                hole[count] = other; /* stays if it is in conflict: a branch would be a coin toss; likewise below */
+                count += seen & 1;
             }
-            if (fronts == b->capacity)
+            if (fronts == capacity) {
+                if (seen & 1)
+                    continue;
                 return -1;
-            b->front[fronts++] = 4 * h + i;
+            }
+            front[fronts] = 4 * h + i;
+            fronts += ~seen & 1;
         }
     }
     *holes = count;
@@ -143,6 +156,70 @@ static CAGE_INLINE void link_ridge(int32_t dim, struct build *b, int32_t fresh, 
     simplex[neighbour].twin[facet] = 4 * fresh + j;
 }
 
+/* The number of site v among those on the front, without a branch (Briggs, Torczon, "An efficient representation for
+ * sparse sets", 1993). */
+static CAGE_INLINE int32_t number_of(struct build *b, int32_t v, int32_t *count)
+{
+    int32_t n = b->number[v], unknown = (n >= *count) | (b->ridges->listed[n] != v);
+    n += (*count - n) * unknown;
+    *count += unknown;
+    b->number[v] = n;
+    b->ridges->listed[n] = v;
+    return n;
+}
+
+/* Link all new simplices in space: an edge of the front is an edge of two of its facets, once in either direction. False
+ * when the front has too many sites for that. */
+static bool link_by_table(struct build *b, int32_t fronts)
+{
+    struct cage_simplex *simplex = b->simplex;
+    int32_t count = 0;
+    for (int32_t n = 0; n < fronts; n++) {
+        int32_t h = b->front[n] >> 2, i = b->front[n] & 3, fresh = front_code(simplex[h].twin[i]);
+        const int32_t *face = CAGE_FACE_3D[i];
+        struct cage_simplex *s = &simplex[fresh];
+        if (count > RIDGE_SITES - 4)
+            return false;
+        int32_t x = number_of(b, s->v[face[0]], &count), y = number_of(b, s->v[face[1]], &count);
+        int32_t z = number_of(b, s->v[face[2]], &count);
+        b->ridges->facet[RIDGE_SITES * y + z] = 4 * fresh + face[0];
+        b->ridges->facet[RIDGE_SITES * z + x] = 4 * fresh + face[1];
+        b->ridges->facet[RIDGE_SITES * x + y] = 4 * fresh + face[2];
+        s->twin[face[0]] = RIDGE_SITES * z + y; /* where its twin will be found */
+        s->twin[face[1]] = RIDGE_SITES * x + z;
+        s->twin[face[2]] = RIDGE_SITES * y + x;
+    }
+    for (int32_t n = 0; n < fronts; n++) {
+        int32_t h = b->front[n] >> 2, i = b->front[n] & 3, fresh = front_code(simplex[h].twin[i]);
+        for (int32_t k = 0; k < 3; k++) {
+            int32_t *twin = &simplex[fresh].twin[CAGE_FACE_3D[i][k]];
+            *twin = b->ridges->facet[*twin];
+        }
+        b->last = fresh;
+    }
+    return true;
+}
+
+/* The same by turning about each ridge. */
+static CAGE_INLINE void link_by_turning(int32_t dim, struct build *b, int32_t fronts)
+{
+    struct cage_simplex *simplex = b->simplex;
+    for (int32_t n = 0; n < fronts; n++) {
+        int32_t h = b->front[n] >> 2, i = b->front[n] & 3, fresh = front_code(simplex[h].twin[i]);
+        for (int32_t k = 0; k < dim; k++)
+            simplex[fresh].twin[face_of(dim, i)[k]] = UNLINKED;
+    }
+    for (int32_t n = 0; n < fronts; n++) {
+        int32_t h = b->front[n] >> 2, i = b->front[n] & 3, fresh = front_code(simplex[h].twin[i]);
+        for (int32_t k = 0; k < dim; k++) {
+            int32_t j = face_of(dim, i)[k];
+            if (simplex[fresh].twin[j] == UNLINKED)
+                link_ridge(dim, b, fresh, h, i, j);
+        }
+        b->last = fresh;
+    }
+}
+
 /* Replace the hole by simplices that join its front to site p. A new simplex is its hole simplex with one vertex
  * replaced by p, which keeps it positive. False when the slots run out. */
 static CAGE_INLINE bool stitch(int32_t dim, struct build *b, int32_t p, int32_t fronts, int32_t holes)
@@ -155,20 +232,13 @@ static CAGE_INLINE bool stitch(int32_t dim, struct build *b, int32_t p, int32_t 
         int32_t twin = simplex[h].twin[i];
         simplex[fresh] = simplex[h];
         simplex[fresh].v[i] = p;
-        for (int32_t j = 0; j <= dim; j++)
-            simplex[fresh].twin[j] = UNLINKED;
         simplex[fresh].twin[i] = twin;
         if (twin != CAGE_HULL)
             simplex[twin >> 2].twin[twin & 3] = 4 * fresh + i;
         simplex[h].twin[i] = front_code(fresh);
     }
-    for (int32_t n = 0; n < fronts; n++) {
-        int32_t h = b->front[n] >> 2, i = b->front[n] & 3, fresh = front_code(simplex[h].twin[i]);
-        for (int32_t j = 0; j <= dim; j++)
-            if (simplex[fresh].twin[j] == UNLINKED)
-                link_ridge(dim, b, fresh, h, i, j);
-        b->last = fresh;
-    }
+    if (dim == 2 || !link_by_table(b, fronts))
+        link_by_turning(dim, b, fronts);
     for (int32_t n = 0; n < holes; n++) {
         int32_t h = b->hole[n];
         simplex[h].v[0] = -1;
@@ -245,10 +315,11 @@ static size_t slots_expected(int32_t dim, int32_t sites)
     return dim == 2 ? 4 * (size_t)sites : 9 * (size_t)sites + 64;
 }
 
-/* Bytes from a mark on that suffice (a guess in space): sites, their order and its scratch, slots. */
+/* Bytes from a mark on that suffice (a guess in space): sites, their order and its scratch, their numbers, slots. */
 static size_t bytes_expected(int32_t dim, int32_t sites)
 {
-    return (size_t)sites * (sizeof(struct cage_site) + 5 * sizeof(int32_t)) + slots_expected(dim, sites) * BYTES_PER_SIMPLEX + 8 * CAGE_ALIGN;
+    return (size_t)sites * (sizeof(struct cage_site) + 6 * sizeof(int32_t)) + slots_expected(dim, sites) * BYTES_PER_SIMPLEX + 8 * CAGE_ALIGN +
+           (dim == 3 ? sizeof(struct ridges) : 0);
 }
 
 int32_t cage_delaunay(struct cage_arena *arena, int32_t dim, const cage_ball *ball, int32_t count,
@@ -271,33 +342,45 @@ int32_t cage_delaunay(struct cage_arena *arena, int32_t dim, const cage_ball *ba
         site[i] = make_site(from->x, from->y, from->z, from->r, (int64_t)from->r * from->r);
     }
 
-    /* All that is left serves as slots, but for one that rounding the two arrays may cost; what was not used is not counted. */
-    size_t kept = arena->used, room = cage_arena_room(arena, BYTES_PER_SIMPLEX), expected = slots_expected(dim, sites);
-    room -= room > 0;
-    struct build b = {site, NULL, NULL, NULL, NULL, 0, 1, -1, 0};
+    struct build b;
+    /* All that is left serves as slots, but for the numbers of sites and what rounding costs; slots not used are not counted. */
+    size_t kept = arena->used, expected = slots_expected(dim, sites), beside = 3 * CAGE_ALIGN;
+    if (dim == 3)
+        beside += (size_t)sites * sizeof *b.number + sizeof *b.ridges;
+    size_t bytes = cage_arena_room(arena, 1), room = bytes > beside ? (bytes - beside) / BYTES_PER_SIMPLEX : 0;
+    b.site = site;
+    b.simplices = 1;
+    b.dead = -1;
+    b.last = 0;
     b.capacity = room > INT32_MAX / 4 ? INT32_MAX / 4 : (int32_t)room;
     size_t peak = arena->peak;
     b.simplex = cage_arena_take(arena, (size_t)b.capacity, sizeof *b.simplex);
     int32_t *lists = cage_arena_take(arena, (size_t)b.capacity, BYTES_PER_SIMPLEX - sizeof *b.simplex);
+    b.number = dim == 3 ? cage_arena_take(arena, (size_t)sites, sizeof *b.number) : NULL;
+    b.ridges = dim == 3 ? cage_arena_take(arena, 1, sizeof *b.ridges) : NULL;
     bool done = false;
-    if (b.capacity > 0 && b.simplex && lists) {
+    if (b.capacity > 0 && b.simplex && lists && (dim == 2 || (b.number && b.ridges))) {
         b.mark = lists;
         b.hole = lists + b.capacity;
         b.front = lists + 2 * (size_t)b.capacity;
         const struct cage_simplex first = {{0, 1, 2, dim == 2 ? 0 : 3}, {CAGE_HULL, CAGE_HULL, CAGE_HULL, CAGE_HULL}};
         b.simplex[0] = first;
         b.mark[0] = 0;
+        if (dim == 3) {
+            memset(b.number, 0, (size_t)sites * sizeof *b.number);
+            memset(b.ridges->listed, 0, sizeof b.ridges->listed);
+        }
         done = dim == 2 ? insert_all_2d(&b, sites) : insert_all_3d(&b, sites);
     }
     arena->peak = peak;
     cage_arena_release(arena, done ? kept : mark);
     if (!done) {
-        arena->needed = kept + (expected > room ? expected : 2 * room + 1) * BYTES_PER_SIMPLEX + 4 * CAGE_ALIGN;
+        arena->needed = kept + (expected > room ? expected : 2 * room + 1) * BYTES_PER_SIMPLEX + beside + 4 * CAGE_ALIGN;
         return CAGE_ERROR_MEMORY;
     }
     compact(dim, &b);
-    if (arena->peak < kept + (size_t)b.simplices * BYTES_PER_SIMPLEX)
-        arena->peak = kept + (size_t)b.simplices * BYTES_PER_SIMPLEX;
+    if (arena->peak < kept + (size_t)b.simplices * BYTES_PER_SIMPLEX + beside)
+        arena->peak = kept + (size_t)b.simplices * BYTES_PER_SIMPLEX + beside;
     out->simplex = cage_arena_take(arena, (size_t)b.simplices, sizeof *b.simplex);
     out->site = site;
     out->ball = input;

@@ -29,23 +29,19 @@ static uint32_t round_of(uint32_t index)
 static uint32_t curve_position(uint32_t x[3], int32_t dim, uint32_t bits)
 {
     for (uint32_t bit = bits - 1; bit > 0; bit--) {
-        uint32_t top = 1u << bit, below = top - 1;
+        uint32_t below = (1u << bit) - 1;
         for (int32_t k = 0; k < dim; k++) {
-            if (x[k] & top) {
-                x[0] ^= below;
-            } else {
-                uint32_t swap = (x[0] ^ x[k]) & below;
-                x[0] ^= swap;
-                x[k] ^= swap;
-            }
+            /* Where the bit is set, flip x[0] below it; elsewhere swap x[0] and x[k] there. No branch: it would be a coin toss. */
+            uint32_t set = 0 - (x[k] >> bit & 1), swap = (x[0] ^ x[k]) & below & ~set;
+            x[0] ^= swap | (below & set);
+            x[k] ^= swap;
         }
     }
     for (int32_t k = 1; k < dim; k++)
         x[k] ^= x[k - 1];
     uint32_t flip = 0;
     for (uint32_t bit = bits - 1; bit > 0; bit--)
-        if (x[dim - 1] & (1u << bit))
-            flip ^= (1u << bit) - 1;
+        flip ^= ((1u << bit) - 1) & (0 - (x[dim - 1] >> bit & 1));
     uint32_t position = 0;
     for (uint32_t bit = bits; bit-- > 0;)
         for (int32_t k = 0; k < dim; k++)

@@ -80,7 +80,7 @@ static CAGE_INLINE bool cage_conflict(int32_t dim, const struct cage_site *const
         cage_i128 det = cage_i128_mul(a[1][0] * a[2][1] - a[1][1] * a[2][0], h[0]);
         det = cage_i128_add(det, cage_i128_mul(a[2][0] * a[0][1] - a[2][1] * a[0][0], h[1]));
         det = cage_i128_add(det, cage_i128_mul(a[0][0] * a[1][1] - a[0][1] * a[1][0], h[2]));
-        return cage_i128_sign(det) > 0;
+        return cage_i128_positive(det);
     }
     /* Minors of x and y (<= 8 M^2 = 2^51), then of x, y and z (< 2^78), then all of it. */
     int64_t m01 = a[0][0] * a[1][1] - a[0][1] * a[1][0], m02 = a[0][0] * a[2][1] - a[0][1] * a[2][0];
@@ -90,7 +90,7 @@ static CAGE_INLINE bool cage_conflict(int32_t dim, const struct cage_site *const
     det = cage_i128_sub(det, cage_i128_scale(cage_mix(m23, a[0][2], m03, a[2][2], m02, a[3][2]), h[1]));
     det = cage_i128_add(det, cage_i128_scale(cage_mix(m13, a[0][2], m03, a[1][2], m01, a[3][2]), h[2]));
     det = cage_i128_sub(det, cage_i128_scale(cage_mix(m12, a[0][2], m02, a[1][2], m01, a[2][2]), h[3]));
-    return cage_i128_sign(det) > 0;
+    return cage_i128_positive(det);
 }
 
 /* The power of the grid point p to the site, |p - z|^2 - r^2: within 8 M^2 in the plane (2^61), 12 M^2 in space. */

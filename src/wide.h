@@ -118,6 +118,12 @@ static CAGE_INLINE int32_t cage_i128_sign(cage_i128 a)
     return (cage_i128_high(a) | cage_i128_low(a)) != 0;
 }
 
+/* a > 0, for a > -2^127: without a branch, for tests whose outcome nothing could predict. */
+static CAGE_INLINE bool cage_i128_positive(cage_i128 a)
+{
+    return cage_i128_negative(cage_i128_sub(cage_i128_make(0, 0), a));
+}
+
 static CAGE_INLINE cage_i128 cage_i128_abs(cage_i128 a)
 {
     return cage_i128_negative(a) ? cage_i128_sub(cage_i128_of(0), a) : a;

@@ -41,6 +41,14 @@ static const command *find_command(const char *name)
     return NULL;
 }
 
+/* Installed as "cage-prove", the program is its command. */
+static const command *own_command(const char *program)
+{
+    const char *slash = strrchr(program, '/'), *base = slash != NULL ? slash + 1 : program;
+
+    return strncmp(base, "cage-", 5) == 0 ? find_command(base + 5) : NULL;
+}
+
 static int wants_help(int argc, char **argv)
 {
     int i;
@@ -65,17 +73,20 @@ int main(int argc, char **argv)
 {
     const char *name = argc > 1 ? argv[1] : "";
     const command *chosen = find_command(name);
+    int skipped = chosen != NULL; /* arguments before the command's own name */
 
-    if (chosen != NULL && !wants_help(argc, argv))
-        return finish(chosen->run(argc - 1, argv + 1));
-    if (wants_help(argc, argv)) {
-        (chosen != NULL ? chosen->help : print_help)(stdout);
-        return finish(HOST_OK);
-    }
+    if (chosen == NULL && argc > 0)
+        chosen = own_command(argv[0]);
     if (strcmp(name, "--version") == 0) {
         (void)printf("cage %s\n", CAGE_VERSION);
         return finish(HOST_OK);
     }
+    if (wants_help(argc, argv)) {
+        (chosen != NULL ? chosen->help : print_help)(stdout);
+        return finish(HOST_OK);
+    }
+    if (chosen != NULL)
+        return finish(chosen->run(argc - skipped, argv + skipped));
     if (argc > 1)
         (void)fprintf(stderr, "cage: '%.100s' is not a command\n\n", name);
     print_help(stderr);

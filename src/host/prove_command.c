@@ -64,7 +64,8 @@ void host_prove_help(FILE *out)
         "start, goal, level, cells, slices, gluings, steps, balls_inserted, peak_bytes, seconds, pivot and\n"
         "path. Pairs are [inner, outer]. A path is a list of poses like POSE; from each to the next the\n"
         "object moves on a straight line without turning, or turns the shorter way about its point pivot.\n"
-        "Progress is shown on standard error when that is a terminal.\n"
+        "Progress is shown on standard error when that is a terminal. Installed, this command is called\n"
+        "cage-prove: \"cage-prove --object ...\" is \"cage prove --object ...\".\n"
         "\n"
         "exit status: 0 for any verdict, 2 for bad input (file:line: what is wrong), 3 when memory was too\n"
         "small (says how much was needed).\n"
@@ -115,6 +116,8 @@ static int read_options(int argc, char **argv, options *given, host_error *error
         else if (slot == NULL)
             return host_fail(error, HOST_BAD_INPUT, "'%.100s' is not an option of cage prove (see cage prove --help)",
                              argv[i]);
+        else if (*slot != NULL)
+            return host_fail(error, HOST_BAD_INPUT, "%.*s is given twice", (int)length, argv[i]);
         else if (argv[i][length] == '=')
             *slot = argv[i] + length + 1;
         else if (i + 1 == argc)

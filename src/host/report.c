@@ -19,12 +19,15 @@ static const char *verdict_sentence(const cage_result *result)
 }
 
 /* What to try when the answer is UNDEFINED. */
-static const char *advice(const cage_result *result)
+static const char *advice(const cage_result *result, const cage_limits *limits)
 {
+    const int one_sided = limits->side != CAGE_SIDE_BOTH;
+
+    if (result->verdict == CAGE_UNDEFINED && one_sided)
+        return " The other --side, or both, may decide it.";
     switch (result->reason) {
     case CAGE_REASON_LEVEL: return " A larger --max-level may decide it.";
     case CAGE_REASON_CELLS: return " A larger --max-cells may decide it.";
-    case CAGE_REASON_SIDE: return " The other --side, or both, may decide it.";
     default: return "";
     }
 }
@@ -118,7 +121,7 @@ void host_report_text(FILE *out, const host_answer *answer)
     const host_query *query = answer->query;
 
     (void)fprintf(out, "%s\n\n%s\n", cage_verdict_text(result->verdict), verdict_sentence(result));
-    (void)fprintf(out, "Reason  %s.%s\n", cage_reason_text(result->reason), advice(result));
+    (void)fprintf(out, "Reason  %s.%s\n", cage_reason_text(result->reason), advice(result, answer->limits));
     print_query_pose(out, "Start  ", &answer->grid->start, &query->start, answer->grid);
     if (query->has_goal)
         print_query_pose(out, "Goal   ", &answer->grid->goal, &query->goal, answer->grid);
