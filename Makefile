@@ -78,7 +78,7 @@ SANI_BIN = $(TESTS:tests/%.c=build/sanitized/%)
 
 test: build/cage lib shared ## install what the tests need (when it may), build and run everything
 	sh tests/deps.sh
-	$(MAKE) --no-print-directory $(TEST_BIN) $(SANI_BIN) build/prove_in_c
+	$(MAKE) --no-print-directory -j2 -s $(TEST_BIN) $(SANI_BIN) build/prove_in_c
 	sh tests/run.sh
 
 build/prove_in_c: examples/prove_in_c.c build/libcage.a

@@ -20,7 +20,7 @@ at() {
 }
 
 row() {
-    printf '%-16s %-28s %-13s %-13s %13s %8s  %s\n' "$@"
+    printf '%-14s %-29s %-13s %-13s %13s %8s  %s\n' "$@"
 }
 
 # scene, query in words, expected verdict, name of the picture, then options of cage prove
@@ -54,12 +54,12 @@ row scene query verdict expected "slices in+out" seconds picture
 walls 4 CAGED hall
 walls 4 CAGED chamber
 walls 4 CAGED cubby
-walls 4 FREE outside_top
+walls 4 FREE outside_below
 walls 4 DISCONNECTED chamber hall
 walls 4 DISCONNECTED cubby hall
-walls 4 DISCONNECTED cubby outside_top
+walls 4 DISCONNECTED cubby outside_below
 walls 4 CONNECTED hall_left hall_right
-walls 4 CONNECTED outside_left outside_top
+walls 4 CONNECTED outside_left outside_below
 walls 10 CAGED hall
 walls 10 CONNECTED chamber hall
 walls 10 DISCONNECTED cubby hall

@@ -1,53 +1,51 @@
 #!/bin/sh
-# Run all tests: natively, under ASan + UBSan, under Valgrind, and the scripts; end with "N passed, N failed".
-passed=0
-failed=0
-report=build/test/report
-mkdir -p build/test
-: > "$report"
+# Run all tests two at a time: natively, under ASan + UBSan, under Valgrind, and the scripts; end with "N passed, N failed".
+out=build/test/out
+rm -rf "$out"
+mkdir -p "$out"
 
-# run NAME COMMAND...: one line each; the output of a failure is shown.
-run() {
-    name=$1
-    shift
-    if "$@" > build/test/out 2>&1; then
-        passed=$((passed + 1))
-        echo "ok    $name"
-        grep -E '^(share|decided|note)' build/test/out | sed 's/^/      /'
-    else
-        failed=$((failed + 1))
-        echo "FAIL  $name"
-        tail -n 40 build/test/out
-    fi
+count=0
+add() { # NAME COMMAND
+    count=$((count + 1))
+    id=$(printf '%03d' $count)
+    echo "$1" > "$out/$id.name"
+    echo "$2" > "$out/$id.sh"
 }
 
-for test in build/test/test_*[!.o]; do
-    case $test in *.o) continue ;; esac
-    run "$(basename "$test")" "$test"
+quick='CK_FORK=no CAGE_TEST_QUICK=1'
+memcheck='valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=all'
+for source in tests/test_*.c; do
+    test=$(basename "$source" .c)
+    add "$test" "build/test/$test"
+    add "$test, ASan and UBSan" "$quick CAGE_TEST_SCENES=20 build/sanitized/$test"
 done
+for name in arena wide predicate order delaunay component glue store pose answers; do
+    add "test_$name, Valgrind" "$quick CAGE_TEST_SCENES=4 $memcheck build/test/test_$name"
+done
+add "the command, Valgrind" "$memcheck build/cage prove --object examples/walls/plus.xyzr --obstacles examples/walls/walls_R10.xyzr \
+  --start 300,320,45 --svg build/test/walls.svg --json"
+add "the command" "sh tests/cli.sh build/cage"
+add "the README" "sh tests/readme.sh"
+add "installation" "sh tests/install.sh"
+add "the core's gates" "sh tests/gates.sh"
+add "the demo" "sh examples/demo.sh build/cage build/test/demo"
 
-CK_FORK=no
-CAGE_TEST_QUICK=1
-CAGE_TEST_SCENES=40
-export CK_FORK CAGE_TEST_QUICK CAGE_TEST_SCENES
-for test in build/sanitized/test_*[!.o]; do
-    case $test in *.o) continue ;; esac
-    run "$(basename "$test") under ASan and UBSan" "$test"
-done
-CAGE_TEST_SCENES=8
-for name in arena wide predicate order delaunay component glue answers; do
-    test=build/test/test_$name
-    [ -x "$test" ] || continue
-    run "test_$name under Valgrind" valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=all "$test"
-done
+ls "$out"/*.sh | xargs -P 2 -I{} sh -c 's=$(date +%s); sh "{}" > "{}.out" 2>&1; echo $? $(($(date +%s) - s)) > "{}.status"'
 
-for script in gates readme install; do
-    run "$script.sh" sh tests/$script.sh
+passed=0
+failed=0
+for script in "$out"/*.sh; do
+    read -r status seconds < "$script.status"
+    name=$(cat "${script%.sh}.name")
+    if [ "$status" = 0 ]; then
+        passed=$((passed + 1))
+        echo "ok    $name (${seconds} s)"
+        grep -hE '^(answers|components|glue|rebuilt|note): ' "$script.out" | sed 's/^/      /'
+    else
+        failed=$((failed + 1))
+        echo "FAIL  $name (${seconds} s)"
+        tail -n 40 "$script.out"
+    fi
 done
-run "cli.sh" sh tests/cli.sh build/cage
-run "cli.sh under Valgrind" valgrind -q --error-exitcode=9 --leak-check=full build/cage prove --object examples/walls/plus.xyzr \
-    --obstacles examples/walls/walls_R10.xyzr --start 300,320,45 --svg build/test/walls.svg --json
-run "demo.sh" sh examples/demo.sh build/cage build/test/demo
-
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -307,6 +307,8 @@ static int show_answer(const options *given, const host_answer *answer, host_err
 {
     int code = check_path(answer, error);
 
+    if (code == HOST_OK && given->svg != NULL)
+        code = host_write_svg(given->svg, answer, error);
     if (code != HOST_OK)
         return code;
     if (given->json)
@@ -315,7 +317,7 @@ static int show_answer(const options *given, const host_answer *answer, host_err
         (void)printf("%s\n", cage_verdict_text(answer->result->verdict));
     else
         host_report_text(stdout, answer);
-    return given->svg != NULL ? host_write_svg(given->svg, answer, error) : HOST_OK;
+    return HOST_OK;
 }
 
 static int run(const options *given, host_query *query, host_grid *grid, void **block, host_error *error)

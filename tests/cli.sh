@@ -1,0 +1,553 @@
+#!/bin/sh
+# The contract of the command, from outside: verdicts, exit codes, messages, options, JSON and pictures.
+# usage: sh tests/cli.sh [COMMAND]       one line a case, then "N passed, N failed"; exit status 1 if any failed
+#
+# The truths are by construction. The fence is eight discs of radius 2.5 around a square of half side 4: neighbours
+# overlap, so nothing gets out. Without the disc at (4,0) the gap is 8 - 5 = 3 wide, and a disc of diameter 2 leaves.
+
+command=${1:-build/cage}
+case $command in */*) ;; *) command=./$command ;; esac
+passed=0
+failed=0
+folder=$(mktemp -d) || exit 1
+trap 'rm -rf "$folder"' EXIT
+trap 'exit 1' HUP INT TERM
+LC_ALL=C
+export LC_ALL
+
+python=
+if python3 -c 'import json, xml.dom.minidom' >/dev/null 2>&1; then python=python3; fi
+
+# ---- scenes ---------------------------------------------------------------------------------------
+
+# Name and exponent: the fence in units of that size, and the same with a gap.
+fences() {
+    awk -v s="$2" -v all="$folder/$1" -v gap="$folder/$1_gap" 'BEGIN {
+        for (x = -4; x <= 4; x += 4) for (y = -4; y <= 4; y += 4) if (x != 0 || y != 0) {
+            line = sprintf("%s%s %s%s 2.5%s", x, s, y, s, s)
+            print line > all
+            if (x != 4 || y != 0) print line > gap
+        }
+    }'
+}
+
+fences fence ''
+fences small e-120
+fences large e120
+fences denormal e-310
+echo '0 0 1' >"$folder/disc"
+echo '0 0 1e-120' >"$folder/small_disc"
+echo '0 0 1e120' >"$folder/large_disc"
+echo '0 0 1e-310' >"$folder/denormal_disc"
+printf '%s\n' '-0.9 0 0.5' '0 0 0.5' '0.9 0 0.5' >"$folder/bar"
+: >"$folder/empty"
+
+# ---- cases ----------------------------------------------------------------------------------------
+
+pass() {
+    passed=$((passed + 1))
+    echo "ok    $case"
+}
+
+fail() {
+    failed=$((failed + 1))
+    echo "FAIL  $case: $1"
+    sed 's/^/      out: /' "$folder/out" | head -n 5 | cut -c1-200
+    sed 's/^/      err: /' "$folder/err" | head -n 5 | cut -c1-200
+}
+
+# The command on arguments: $code, and the files out and err.
+call() {
+    "$command" "$@" >"$folder/out" 2>"$folder/err" </dev/null
+    code=$?
+}
+
+# name, object, obstacles, start, then options: one proof.
+prove() {
+    case=$1 object=$folder/$2 obstacles=$folder/$3 start=$4
+    shift 4
+    call prove --object "$object" --obstacles "$obstacles" --start "$start" "$@"
+}
+
+# Is $1 one of the rest?
+among() {
+    wanted=$1
+    shift
+    for word; do
+        if [ "$word" = "$wanted" ]; then return 0; fi
+    done
+    return 1
+}
+
+# The verdicts that are true (or UNDEFINED where it may be): exit 0, and the first line is one of them.
+says() {
+    first=$(head -n 1 "$folder/out")
+    if [ "$code" -ne 0 ]; then
+        fail "exit status $code, not 0"
+    elif among "$first" "$@"; then
+        pass
+    else
+        fail "the first line is '$first', not $*"
+    fi
+}
+
+# Exit status 2, nothing on standard output, and a message that matches.
+refused() {
+    if [ "$code" -ne 2 ]; then
+        fail "exit status $code, not 2"
+    elif [ -s "$folder/out" ]; then
+        fail "standard output is not empty"
+    elif ! grep -q -- "$1" "$folder/err"; then
+        fail "no message like '$1'"
+    else
+        pass
+    fi
+}
+
+# Passes if the test given is true.
+holds() {
+    if "$@"; then pass; else fail "not true: $*"; fi
+}
+
+# name, line, message, and the text of a file (a printf format): refused as object and as obstacles.
+malformed() {
+    # shellcheck disable=SC2059 # the text is a format on purpose: it holds octal escapes
+    printf "$4" >"$folder/bad"
+    prove "malformed object: $1" bad fence 0,0,0
+    refused "^$folder/bad:$2: $3"
+    prove "malformed obstacles: $1" disc bad 0,0,0
+    refused "^$folder/bad:$2: $3"
+}
+
+# name, and the text of a file that is the disc: CAGED in the fence.
+wellformed() {
+    # shellcheck disable=SC2059
+    printf "$2" >"$folder/good"
+    prove "file: $1" good fence 0,0,0
+    says CAGED
+}
+
+# ---- verdicts -------------------------------------------------------------------------------------
+
+prove "verdict CAGED" disc fence 0,0,0
+says CAGED
+prove "verdict CAGED, a part that is no disc" bar fence 0,0,0
+says CAGED
+prove "verdict FREE" disc fence_gap 0,0,0
+says FREE
+prove "verdict FREE, a part that is no disc" bar fence_gap 0,0,0
+says FREE
+prove "verdict DISCONNECTED" disc fence 0,0,0 --goal 20,0,0
+says DISCONNECTED
+prove "verdict CONNECTED" disc fence_gap 0,0,0 --goal 20,0,0
+says CONNECTED
+prove "verdict CONNECTED, both inside" bar fence 0,0,0 --goal 0.05,0,180
+says CONNECTED
+prove "verdict CONNECTED, a short straight move inside" bar fence 0,0,0 --goal 0.05,0,0
+says CONNECTED
+prove "verdict CONNECTED, goal is start" disc fence 0,0,0 --goal 0,0,0
+says CONNECTED
+prove "verdict IN_COLLISION, start" disc fence 3,0,0
+says IN_COLLISION
+prove "verdict IN_COLLISION, goal" disc fence 0,0,0 --goal 3,0,0
+says IN_COLLISION
+prove "verdict UNDEFINED: the outer side cannot prove a cage" disc fence 0,0,0 --side outer --max-level 6
+says UNDEFINED
+prove "verdict UNDEFINED: the inner side finds no path" disc fence_gap 0,0,0 --side inner
+says UNDEFINED
+prove "touching is no collision" disc disc 2,0,0
+says FREE
+prove "a hair less than touching is" disc disc 1.999999,0,0
+says IN_COLLISION
+
+prove "--side inner proves a cage" bar fence 0,0,0 --side inner
+says CAGED
+prove "--side outer finds a path" bar fence_gap 0,0,0 --side outer
+says FREE
+prove "--side both" bar fence 0,0,0 --side both
+says CAGED
+
+# ---- unusual scenes -------------------------------------------------------------------------------
+
+prove "empty object" empty fence 0,0,0
+says FREE
+prove "empty object warns" empty fence 0,0,0
+holds grep -q 'empty has no balls' "$folder/err"
+prove "empty obstacles" disc empty 0,0,0
+says FREE
+prove "nothing at all" empty empty 0,0,0
+says FREE
+prove "nothing at all, with a goal" empty empty 0,0,0 --goal 5,6,7
+says CONNECTED
+prove "one obstacle" bar disc 5,0,0
+says FREE
+prove "one obstacle, with a goal behind it" bar disc 5,0,0 --goal -5,0,0
+says CONNECTED
+prove "object larger than the world: the fence around a disc" fence disc 0,0,0
+says CAGED
+prove "object larger than the world, with a gap" fence_gap disc 0,0,0
+says FREE
+printf '0 0 1e-400\n' >"$folder/point"
+prove "radius 1e-400 is 0: a point in the fence" point fence 0,0,0
+says CAGED
+prove "a point beside a point" point point 1,0,0
+says FREE
+prove "the smallest numbers: no false cage" denormal_disc denormal_gap 0,0,0
+says FREE UNDEFINED
+prove "the smallest numbers: no false path" denormal_disc denormal 0,0,0
+says CAGED UNDEFINED
+prove "a scene in units of 1e-120" small_disc small 0,0,0
+says CAGED
+prove "a scene in units of 1e-120, with a gap" small_disc small_gap 0,0,0
+says FREE
+prove "a scene in units of 1e120" large_disc large 0,0,0
+says CAGED
+prove "a scene in units of 1e120, with a gap" large_disc large_gap 0,0,0
+says FREE
+printf '0 0 1e149\n' >"$folder/vast"
+prove "a radius of 1e149 over an object of 1: it collides" disc vast 0,0,0
+says IN_COLLISION UNDEFINED
+prove "a radius of 1e149, both" vast vast 0,0,0
+says IN_COLLISION
+printf '0 0 1e9\n4e9 0 1e9\n' >"$folder/wide"
+prove "huge radii, far apart" wide wide 0,1e10,0
+says FREE
+prove "a pose far away" disc fence 1e100,1e100,0
+says FREE UNDEFINED
+prove "any number of turns" bar fence 0,0,36000
+says CAGED
+prove "a negative angle" bar fence_gap 0,0,-90
+says FREE
+i=0
+while [ "$i" -lt 300 ]; do echo '0 0 1'; i=$((i + 1)); done >"$folder/same"
+prove "300 balls at one place" same fence 0,0,0
+says CAGED
+prove "300 obstacles at one place" disc same 5,0,0
+says FREE
+
+# ---- files ----------------------------------------------------------------------------------------
+
+malformed "missing column" 2 '2 columns' '0 0 1\n1 2\n'
+malformed "one column" 1 '1 column;' '7\n'
+malformed "5 columns" 3 '5 columns' '# three\n\n1 2 3 4 5\n'
+malformed "letters" 1 "column 2: 'abc' is not a number" '0 abc 1\n'
+malformed "letters after a number" 1 "column 3: '1x' is not a number" '0 0 1x\n'
+malformed "hexadecimal" 1 "column 3: '0x10' is not a number" '0 0 0x10\n'
+malformed "NaN" 2 "column 1: 'NaN' is not a finite number" '0 0 1\nNaN 0 1\n'
+malformed "-nan" 1 "column 2: '-nan' is not a finite number" '0 -nan 1\n'
+malformed "inf" 1 "column 3: 'inf' is not a finite number" '0 0 inf\n'
+malformed "-Infinity" 1 "column 1: '-Infinity' is not a finite number" ' -Infinity 0 1\n'
+malformed "1e308" 1 "column 1: '1e308' is too large" '1e308 0 1\n'
+malformed "1e99999" 1 "column 3: '1e99999' is too large" '0 0 1e99999\n'
+malformed "negative radius" 2 'the radius -1 is negative' '0 0 1\n0 0 -1\n'
+malformed "mixed dimensions" 3 '4 columns, but line 2 has 3' '#\n0 0 1\n0 0 0 1\n'
+malformed "two commas" 1 'column 2 is empty' '0,,1\n'
+malformed "a comma first" 1 'column 1 is empty' ',0,0,1\n'
+malformed "a comma last" 1 'nothing follows the last comma' '0,0,1,\n'
+malformed "semicolons" 1 'column 1: ' '0;0;1\n'
+malformed "no line end, then junk" 2 'column 1: ' '0 0 1\nq'
+malformed "a zero byte" 1 'a zero byte' '0 0 1\000\n'
+malformed "binary junk" 1 '' '\177ELF\002\001\001\000\000\377\376\r\033[31m\n'
+malformed "junk is not printed raw" 1 "column 1: '?\\[31m' is not a number" '\033[31m 0 1\n'
+malformed "UTF-16" 1 '' '\377\3760\000 \0000\000 \0001\000\n\000'
+malformed "a minus that is none" 1 'column 1: ' '\342\210\2221 0 1\n'
+
+awk 'BEGIN { for (i = 0; i < 3000; i++) printf "1 "; print "" }' >"$folder/bad"
+prove "malformed object: a huge line" bad fence 0,0,0
+refused "^$folder/bad:1: the line is longer than"
+awk 'BEGIN { for (i = 0; i < 200000; i++) printf "1"; print "" }' >"$folder/bad"
+prove "malformed obstacles: a number of 200000 digits" disc bad 0,0,0
+refused "^$folder/bad:1: "
+
+wellformed "CRLF" '# a disc\r\n\r\n0 0 1\r\n'
+wellformed "commas" '0,0,1\n'
+wellformed "commas and white space" '\t0 , 0\t,1  \n'
+wellformed "comments" '# x y r\n0 0 1 # the disc\n   # no more\n'
+wellformed "no line end" '0 0 1'
+wellformed "signs and exponents" ' -0.0 +0e5 10.E-1\n'
+wellformed "byte order mark" '\357\273\2770 0 1\n'
+awk 'BEGIN { printf "#"; for (i = 0; i < 200000; i++) printf "x"; print "\n0 0 1" }' >"$folder/good"
+prove "file: a huge comment" good fence 0,0,0
+says CAGED
+printf '# nothing\n\n   \n#\n' >"$folder/comments"
+prove "file: only comments is an empty set" comments fence 0,0,0
+says FREE
+
+prove "a file that is not there" none fence 0,0,0
+refused "^$folder/none: cannot be opened"
+prove "a folder for a file" . fence 0,0,0
+refused "^$folder/\\.: cannot be read"
+echo '0 0 0 1' >"$folder/ball"
+prove "object in the plane, obstacles in space" disc ball 0,0,0
+refused 'dimensions'
+prove "a pose in space for a scene in the plane" disc fence 0,0,0,1,0,0,0
+refused '--start'
+prove "a goal in space for a scene in the plane" disc fence 0,0,0 --goal 0,0,0,1,0,0,0
+refused '--goal'
+prove "a pose in the plane for a scene in space" ball ball 0,0,0
+refused '--start'
+
+# ---- options --------------------------------------------------------------------------------------
+
+# name, message, then the whole command line after "prove".
+option() {
+    case="option: $1" message=$2
+    shift 2
+    call prove "$@"
+    refused "$message"
+}
+
+# name, message, then what comes after a complete query.
+extra() {
+    what=$1 message=$2
+    shift 2
+    option "$what" "$message" --object "$folder/disc" --obstacles "$folder/fence" --start 0,0,0 "$@"
+}
+
+option "none at all" '--object is missing'
+option "no obstacles" '--obstacles is missing' --object "$folder/disc"
+option "no start" '--start is missing' --object "$folder/disc" --obstacles "$folder/fence"
+extra "unknown" "'--wobble' is not an option" --wobble 3
+extra "a word" "'stray' is not an option" stray
+extra "unknown letter" "'-x' is not an option" -x
+extra "part of a name" "'--max' is not an option" --max 3
+extra "missing value" '--goal needs a value' --goal
+extra "missing value of --memory" '--memory needs a value' --memory
+extra "twice" '--start is given twice' --start 0,0,0
+extra "twice, with =" '--start is given twice' --start=0,0,0
+extra "--side" "--side: 'left' is none of" --side left
+extra "--max-level not a number" "--max-level: 'ten' is not a whole number" --max-level ten
+extra "--max-level empty" "--max-level: '' is not a whole number" --max-level=
+extra "--max-level not whole" '--max-level: ' --max-level 1.5
+extra "--max-level negative" '--max-level: ' --max-level -1
+extra "--max-level too large" '--max-level: ' --max-level 99
+extra "--max-level much too large" '--max-level: ' --max-level 99999999999999999999999
+extra "--max-cells too small" '--max-cells: ' --max-cells 1
+extra "--max-cells too large" '--max-cells: ' --max-cells 2147483648
+extra "--max-cells not a number" '--max-cells: ' --max-cells 0x10
+extra "--memory not a number" '--memory: ' --memory lots
+extra "--memory negative" '--memory: ' --memory -5
+extra "--memory with a strange suffix" '--memory: ' --memory 5Q
+extra "--memory beyond the machine" '--memory: ' --memory 99999999999999999G
+extra "--unit zero" '--unit: ' --unit 0
+extra "--unit negative" '--unit: ' --unit -1
+extra "--unit not a number" '--unit: ' --unit metre
+extra "--unit NaN" '--unit: ' --unit nan
+extra "--unit too fine" '--unit 1e-30 is too fine' --unit 1e-30
+extra "--goal of two numbers" '--goal: ' --goal 1,2
+extra "--goal of letters" '--goal: ' --goal a,b,c
+extra "--goal infinite" '--goal: ' --goal 1,inf,0
+extra "--goal beyond all bounds" '--goal: ' --goal 1e308,0,0
+extra "--goal empty" '--goal: ' --goal ''
+extra "--svg into no folder" '--svg: ' --quiet --svg "$folder/none/picture.svg"
+option "--start of two numbers" '--start: ' --object "$folder/disc" --obstacles "$folder/fence" --start 1,2
+option "--start with a zero quaternion" '--start: ' --object "$folder/ball" --obstacles "$folder/ball" --start 5,0,0,0,0,0,0
+
+prove "option: --name=value" disc fence 0,0,0 --side=inner --max-level=9
+says CAGED
+for name in --help -h; do
+    case="$name"
+    call $name
+    holds grep -q '^usage: cage' "$folder/out"
+    case="prove $name"
+    call prove $name
+    holds grep -q '^usage: cage prove' "$folder/out"
+    case="prove $name ends well"
+    holds [ "$code" -eq 0 ]
+done
+for word in CAGED DISCONNECTED FREE CONNECTED IN_COLLISION UNDEFINED --object --obstacles --start --goal --side \
+    --max-level --max-cells --memory --unit --json --svg --quiet; do
+    if ! grep -q -- "$word" "$folder/out"; then missing="$missing $word"; fi
+done
+case="prove --help names every verdict and option"
+holds [ -z "$missing" ]
+case="--version"
+call --version
+holds grep -Eq '^cage [0-9]+\.[0-9]+\.[0-9]+$' "$folder/out"
+case="no command"
+call
+refused '^usage: '
+case="unknown command"
+call dance
+refused "'dance' is not a command"
+
+# The installed name: cage-prove is cage prove.
+ln -s "$(cd "$(dirname "$command")" && pwd)/$(basename "$command")" "$folder/cage-prove"
+own=$command
+command=$folder/cage-prove
+case="cage-prove"
+call --object "$folder/disc" --obstacles "$folder/fence" --start 0,0,0
+says CAGED
+case="cage-prove --help"
+call --help
+holds grep -q '^usage: cage prove' "$folder/out"
+case="cage-prove --version"
+call --version
+holds grep -q '^cage [0-9]' "$folder/out"
+case="cage-prove without options"
+call
+refused '--object is missing'
+command=$own
+
+# ---- limits ---------------------------------------------------------------------------------------
+
+# A limit must never turn a truth around.
+prove "--max-level 0 gives no false path" bar fence 0,0,0 --max-level 0
+says CAGED UNDEFINED
+prove "--max-level 0 gives no false cage" bar fence_gap 0,0,0 --max-level 0
+says FREE UNDEFINED
+prove "--max-cells 2 gives no false path" bar fence 0,0,0 --max-cells 2
+says CAGED UNDEFINED
+prove "--max-cells 2 gives no false cage" bar fence_gap 0,0,0 --max-cells 2
+says FREE UNDEFINED
+prove "--unit 0.5" disc fence 0,0,0 --unit 0.5
+says CAGED
+for unit in 0.3 1 1000 1e30; do
+    prove "--unit $unit gives no false path" bar fence 0,0,0 --unit $unit
+    says CAGED UNDEFINED
+    prove "--unit $unit gives no false cage" bar fence_gap 0,0,0 --unit $unit
+    says FREE UNDEFINED
+done
+
+# memory: exit 3 and a size; with that size, or after a few more such steps, the answer.
+for scene in fence fence_gap; do
+    bytes=1000
+    rounds=0
+    case="--memory $bytes is too small ($scene)"
+    prove "$case" bar $scene 0,0,0 --memory $bytes
+    holds [ "$code" -eq 3 ]
+    case="and nothing is on standard output"
+    holds [ ! -s "$folder/out" ]
+    while [ "$code" -eq 3 ] && [ "$rounds" -lt 40 ]; do
+        more=$(sed -n 's/^cage: memory: .* needed (--memory \([0-9]*\))$/\1/p' "$folder/err")
+        if [ "${more:-0}" -le "$bytes" ]; then break; fi
+        bytes=$more
+        rounds=$((rounds + 1))
+        prove "with the $bytes bytes it asked for, $rounds sizes later ($scene)" bar $scene 0,0,0 --memory "$bytes"
+    done
+    if [ $scene = fence ]; then says CAGED; else says FREE; fi
+done
+prove "--memory 0" bar fence 0,0,0 --memory 0
+holds [ "$code" -eq 3 ]
+prove "--memory 64M" bar fence 0,0,0 --memory 64M
+says CAGED
+prove "--memory 65536k" bar fence 0,0,0 --memory 65536k
+says CAGED
+
+# ---- output ---------------------------------------------------------------------------------------
+
+prove "--quiet prints the verdict and nothing else" disc fence 0,0,0 --quiet
+holds [ "$(cat "$folder/out")" = CAGED ]
+prove "--quiet does not warn" empty fence 0,0,0 --quiet
+holds [ ! -s "$folder/err" ]
+prove "without --quiet the reason follows" disc fence 0,0,0
+holds [ "$(wc -l <"$folder/out")" -gt 3 ]
+prove "no progress where standard error is no terminal" bar fence 0,0,0
+holds [ ! -s "$folder/err" ]
+
+keys='verdict reason dim unit start goal level cells slices gluings steps balls_inserted peak_bytes seconds path'
+
+# The answer in out is one JSON object with every key, and its verdict is the one given.
+json() {
+    missing=
+    for key in $keys; do
+        if ! grep -q "\"$key\": " "$folder/out"; then missing="$missing $key"; fi
+    done
+    if [ "$code" -ne 0 ]; then
+        fail "exit status $code"
+    elif [ -n "$missing" ]; then
+        fail "without$missing"
+    elif ! grep -q "\"verdict\": \"$1\"" "$folder/out"; then
+        fail "not $1"
+    elif [ -n "$python" ] && ! python3 - "$folder/out" "$1" $keys 2>>"$folder/err" <<'END'
+import json, math, sys
+def no(constant):
+    raise ValueError(constant)
+with open(sys.argv[1]) as file:
+    answer = json.load(file, parse_constant=no)
+assert answer["verdict"] == sys.argv[2]
+for key in sys.argv[3:]:
+    assert key in answer, key
+assert answer["dim"] in (2, 3) and answer["unit"] > 0 and len(answer["start"]) == (3 if answer["dim"] == 2 else 7)
+path = answer["path"]
+assert (len(path) > 1) == (sys.argv[2] in ("FREE", "CONNECTED")), len(path)
+for pose in path:
+    assert len(pose) == len(answer["start"]) and all(math.isfinite(x) for x in pose)
+if path:
+    assert all(abs(a - b) < 1e-3 for a, b in zip(path[0][:2], answer["start"][:2])), path[0]
+if path and answer["goal"]:
+    assert all(abs(a - b) < 1e-3 for a, b in zip(path[-1][:2], answer["goal"][:2])), path[-1]
+# Each leg either keeps the angle or turns about the pivot.
+px, py = answer["pivot"][:2] if path else (0, 0)
+def pivot(pose):
+    a = math.radians(pose[2])
+    return pose[0] + math.cos(a) * px - math.sin(a) * py, pose[1] + math.sin(a) * px + math.cos(a) * py
+for a, b in zip(path, path[1:]):
+    turned = abs((a[2] - b[2] + 180) % 360 - 180) > 1e-5
+    moved = math.dist(pivot(a), pivot(b)) > 1e-4
+    assert not (turned and moved), (a, b)
+END
+    then
+        fail "the JSON does not hold what it should"
+    else
+        pass
+    fi
+}
+
+# The picture is well-formed XML and an SVG.
+picture() {
+    if [ ! -s "$folder/picture.svg" ] || ! grep -q '^<svg ' "$folder/picture.svg"; then
+        fail "no picture"
+    elif grep -Eiq '[="(, ]-?(nan|inf)' "$folder/picture.svg"; then
+        fail "a number of the picture is not finite"
+    elif [ -n "$python" ]; then
+        holds python3 -c 'import sys, xml.dom.minidom as x; x.parse(sys.argv[1])' "$folder/picture.svg"
+    elif xmllint --version >/dev/null 2>&1; then
+        holds xmllint --noout "$folder/picture.svg"
+    else
+        pass
+    fi
+    rm -f "$folder/picture.svg"
+}
+
+# verdict, then as for prove, without the name
+shown() {
+    verdict=$1 what="$2 in $3"
+    shift
+    prove "--json of $verdict, $what" "$@" --json --svg "$folder/picture.svg" --quiet
+    json "$verdict"
+    case="--svg of $verdict, $what"
+    picture
+}
+
+shown CAGED bar fence 0,0,0
+shown DISCONNECTED bar fence 0,0,0 --goal 20,0,0
+shown FREE bar fence_gap 0,0,0
+shown CONNECTED bar fence_gap 0,0,0 --goal 20,0,90
+shown UNDEFINED bar fence 0,0,0 --side outer --max-level 6
+shown IN_COLLISION bar fence 3,0,0
+shown FREE disc empty 0,0,0
+shown FREE empty empty 0,0,0
+shown FREE point point 1,0,0
+shown CAGED large_disc large 0,0,0
+shown CAGED small_disc small 0,0,0
+shown CAGED fence disc 0,0,0
+
+prove "the same question gives the same answer" bar fence_gap 0,0,0 --json
+grep -v seconds "$folder/out" >"$folder/first"
+prove "the same question gives the same answer" bar fence_gap 0,0,0 --json
+grep -v seconds "$folder/out" >"$folder/second"
+holds cmp -s "$folder/first" "$folder/second"
+
+if [ -c /dev/full ]; then
+    case="a full disk is not taken for an answer"
+    "$command" prove --object "$folder/disc" --obstacles "$folder/fence" --start 0,0,0 >/dev/full 2>"$folder/err"
+    code=$?
+    : >"$folder/out"
+    refused 'cannot be written'
+    prove "nor for a picture" disc fence 0,0,0 --quiet --svg /dev/full
+    holds [ "$code" -eq 2 ]
+fi
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
