@@ -15,16 +15,13 @@ static int32_t place_inside(struct cage_proof *proof, const struct cage_slice *o
     return error;
 }
 
+/* Build a slice and store it last, as whatever else is built on the way may drop what was stored before. */
 static int32_t build(struct cage_proof *proof, int32_t side, int32_t cell, struct cage_held **held)
 {
     struct cage_slice slice;
     size_t mark = proof->scratch.used;
-    int32_t error = cage_slice_make(&proof->scratch, &proof->side[side], &proof->graph.cell[cell].rotations, &slice);
     struct cage_facts *facts = &proof->graph.cell[cell].facts[side];
-    if (error == CAGE_OK && !cage_store_put(&proof->store, &slice, &facts->held)) {
-        proof->scratch.needed = 0;
-        error = CAGE_ERROR_MEMORY;
-    }
+    int32_t error = cage_slice_make(&proof->scratch, &proof->side[side], &proof->graph.cell[cell].rotations, &slice);
     if (error == CAGE_OK && facts->nodes == 0) {
         error = cage_graph_add_nodes(&proof->graph, side, cell, slice.regions);
         proof->result.slices[side]++;
@@ -32,6 +29,10 @@ static int32_t build(struct cage_proof *proof, int32_t side, int32_t cell, struc
         proof->result.inserted[side] += slice.t.sites - slice.t.dim - 1;
         if (error == CAGE_OK && side == CAGE_OUTER)
             error = place_inside(proof, &slice, cell);
+    }
+    if (error == CAGE_OK && !cage_store_put(&proof->store, &slice, &facts->held)) {
+        proof->scratch.needed = 0;
+        error = CAGE_ERROR_MEMORY;
     }
     cage_arena_release(&proof->scratch, mark);
     *held = facts->held;
@@ -56,17 +57,28 @@ static int32_t keep_exact(const struct cage_slice *c, const struct cage_slice *d
     return kept;
 }
 
+/* Both slices at once. Building one may drop the other; in an empty store there is room for both if there ever is. */
+static int32_t both_slices(struct cage_proof *proof, int32_t side, int32_t a, int32_t b, const struct cage_slice **c,
+                           const struct cage_slice **d)
+{
+    struct cage_held **first = &proof->graph.cell[a].facts[side].held, **second = &proof->graph.cell[b].facts[side].held;
+    for (int32_t attempt = 0; attempt < 2; attempt++) {
+        if (attempt > 0)
+            cage_store_clear(&proof->store);
+        int32_t error = cage_proof_slice(proof, side, a, c);
+        if (error == CAGE_OK)
+            error = cage_proof_slice(proof, side, b, d);
+        if (error != CAGE_OK || (*first && *second))
+            return error;
+    }
+    proof->scratch.needed = 0;
+    return CAGE_ERROR_MEMORY;
+}
+
 static int32_t glue(struct cage_proof *proof, int32_t side, int32_t a, int32_t b)
 {
     const struct cage_slice *c, *d;
-    int32_t error = cage_proof_slice(proof, side, a, &c);
-    if (error == CAGE_OK)
-        error = cage_proof_slice(proof, side, b, &d);
-    /* Building b may have dropped a; built again after b, both are the newest. */
-    if (error == CAGE_OK)
-        error = cage_proof_slice(proof, side, a, &c);
-    if (error == CAGE_OK && !proof->graph.cell[b].facts[side].held)
-        error = CAGE_ERROR_MEMORY;
+    int32_t error = both_slices(proof, side, a, b, &c, &d);
     if (error != CAGE_OK)
         return error;
     size_t mark = proof->scratch.used;

@@ -22,6 +22,13 @@ static void drop_oldest(struct cage_store *store)
         store->newest = NULL;
 }
 
+void cage_store_clear(struct cage_store *store)
+{
+    while (store->oldest)
+        drop_oldest(store);
+    store->head = 0;
+}
+
 /* Blocks lie in the order of their age, around the ring. */
 static void make_room(struct cage_store *store, size_t from, size_t to)
 {

@@ -25,6 +25,9 @@ void cage_store_init(struct cage_store *store, void *base, size_t bytes);
 /* Copy a slice into the store; false if it is larger than all of it. */
 bool cage_store_put(struct cage_store *store, const struct cage_slice *slice, struct cage_held **owner);
 
+/* Drop all slices. */
+void cage_store_clear(struct cage_store *store);
+
 /* Bytes of a store that can hold the slice. */
 size_t cage_store_bytes(const struct cage_slice *slice);
 

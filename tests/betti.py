@@ -33,7 +33,7 @@ def main():
         if found != said:
             wrong += 1
             print(f"{name}: {said} components, GUDHI says {found}: {balls}")
-    print(f"component: {scenes} scenes compared with GUDHI, {wrong} differ")
+    print(f"components: {scenes} scenes compared with GUDHI, {wrong} differ")
     return 1 if wrong else 0
 
 

@@ -307,6 +307,72 @@ START_TEST(portions_do_not_matter)
 }
 END_TEST
 
+/* ---- paths ----------------------------------------------------------------------------------------------- */
+
+/* Quaternions of all lengths turn alike. */
+static void stretch(uint64_t *rng, cage_pose *pose)
+{
+    int32_t by = 1 << scene_between(rng, 0, 14); /* entries are at most 700 (20 + 40) */
+    pose->q[0] *= by;
+    pose->q[3] *= by;
+}
+
+static void leg_random(uint64_t *rng, const scene *s, cage_pose leg[2])
+{
+    int32_t far_out = 1 << scene_between(rng, 4, 24);
+    leg[0] = s->start;
+    leg[0].x[0] += scene_between(rng, -far_out, far_out);
+    leg[0].x[1] += scene_between(rng, -far_out, far_out);
+    leg[1] = leg[0];
+    if (scene_between(rng, 0, 2) == 0) {
+        leg[1].x[0] += scene_between(rng, -far_out, far_out);
+        leg[1].x[1] += scene_between(rng, -far_out, far_out);
+    } else {
+        int32_t little = scene_between(rng, 1, 40), w = leg[0].q[0], z = leg[0].q[3];
+        leg[1].q[0] = 20 * w - little * z; /* turned by 2 atan(little / 20) or back */
+        leg[1].q[3] = 20 * z + little * w;
+    }
+    stretch(rng, &leg[0]);
+    stretch(rng, &leg[1]);
+}
+
+static long double longest_arm(const scene *s)
+{
+    long double most = 0;
+    for (int32_t i = 0; i < s->object_count; i++) {
+        long double x = s->object[i].x, y = s->object[i].y, arm = (x < 0 ? -x : x) + (y < 0 ? -y : y);
+        most = arm > most ? arm : most;
+    }
+    return most;
+}
+
+/* cage_path_check accepts nothing that collides, and all that keeps clear by 16 units and some of the arc. */
+START_TEST(path_check_is_right)
+{
+    static const int32_t pivot[3] = {0, 0, 0};
+    int32_t n = scenes_wanted() * 5, accepted = 0, refused = 0;
+    uint64_t rng = 17;
+    for (int32_t k = 0; k < n; k++) {
+        asked a;
+        cage_pose leg[2];
+        const char *wrong;
+        ask_random(&a, (uint64_t)k / 5 + 100000);
+        leg_random(&rng, &a.s, leg);
+        int same = leg[0].x[0] == leg[1].x[0] && leg[0].x[1] == leg[1].x[1];
+        long double depth = oracle_check_path(&a.view, &leg[0], &leg[1], pivot, leg, 2, &wrong);
+        long double clear = 16 + (same ? longest_arm(&a.s) / 25 : 0);
+        int32_t answer = cage_path_check(&a.view, &leg[0], &leg[1], pivot, leg, 2);
+        ck_assert(wrong == NULL && (answer == 0 || answer == 1));
+        expect(&a, answer == 1 && depth > ORACLE_SLACK ? "accepts a collision" : NULL, "path check");
+        expect(&a, answer == 0 && depth < -clear ? "refuses a clear leg" : NULL, "path check");
+        accepted += answer;
+        refused += 1 - answer;
+    }
+    printf("path check: %d legs accepted, %d refused\n", (int)accepted, (int)refused);
+    ck_assert(n < 1000 || (accepted > n / 10 && refused > n / 10));
+}
+END_TEST
+
 /* ---- memory ---------------------------------------------------------------------------------------------- */
 
 #define CANARY 64
@@ -434,6 +500,7 @@ int main(void)
     add(suite, "sides", each_side_keeps_to_its_balls, single_sides_agree, NULL);
     add(suite, "alike", moved_scenes_answer_alike, swapped_ends_answer_alike, order_of_balls_does_not_matter);
     add(suite, "portions", portions_do_not_matter, NULL, NULL);
+    add(suite, "paths", path_check_is_right, NULL, NULL);
     add(suite, "memory", any_block_gives_the_error_or_the_answer, needed_bytes_lead_to_the_answer, NULL);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);

@@ -158,7 +158,7 @@ START_TEST(equals_a_flood_fill)
         bounded += l.c.count - 1;
         free(l.block);
     }
-    printf("component: dim %d, %d scenes, %d bounded components, a flood fill decides %.1f %% of the free points\n", (int)dim,
+    printf("components: dim %d, %d scenes, %d bounded components, a flood fill decides %.1f %% of the free points\n", (int)dim,
            (int)rounds, (int)bounded, 100.0 * (double)decided / (double)(of ? of : 1));
     ck_assert_int_ge(bounded, rounds / 10);
     ck_assert(decided > of / 2);
@@ -229,7 +229,7 @@ START_TEST(equals_betti_numbers)
     int status = pclose(python);
     ck_assert(WIFEXITED(status));
     if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127)
-        printf("component: comparison with Betti numbers left out, it needs python3 with gudhi\n");
+        printf("note: comparison of components with Betti numbers left out, it needs python3 with gudhi\n");
     else
         ck_assert_int_eq(WEXITSTATUS(status), 0);
 }

@@ -217,7 +217,7 @@ START_TEST(proofs_hold_from_nothing)
         scene_random((uint64_t)seed + 500000, &s);
         prove_twice(&s, sum);
     }
-    printf("rebuild: %ld separations in %d scenes, %ld leaves, %ld gluings, %ld nodes reached\n", sum[0], (int)seed, sum[1], sum[2],
+    printf("rebuilt: %ld separations in %d scenes, %ld leaves, %ld gluings, %ld nodes reached\n", sum[0], (int)seed, sum[1], sum[2],
            sum[3]);
     ck_assert_int_ge((int)sum[0], wanted);
     free(memory);
