@@ -44,7 +44,7 @@ extern "C" {
 #define CAGE_ERROR_RANGE (-3)     /* the scene or a pose does not fit CAGE_REACH */
 #define CAGE_ERROR_RADIUS (-4)    /* a negative radius */
 #define CAGE_ERROR_ROTATION (-5)  /* a quaternion of zero, too large, or not about z in the plane */
-#define CAGE_ERROR_MEMORY (-6)    /* the block is too small: cage_result.needed_bytes says for how much */
+#define CAGE_ERROR_MEMORY (-6)    /* the block is too small: see cage_prove_size, cage_result.needed_bytes */
 
 /* ---- verdicts ----------------------------------------------------------------------------------- */
 #define CAGE_UNDEFINED 0    /* a limit was reached first, or the work is not finished: see reason */
@@ -103,7 +103,7 @@ typedef struct cage_limits {
     int32_t side;        /* CAGE_SIDE_... */
     int32_t start_level; /* the cells' first level, or -1: chosen from the balls */
     int32_t max_level;   /* 0 to CAGE_LEVEL_MAX_2D */
-    int32_t max_cells;   /* cells ever made, at least 2 */
+    int32_t max_cells;   /* cells ever made, 2 to 2^24 */
 } cage_limits;
 
 /* ---- output -------------------------------------------------------------------------------------- */
@@ -162,7 +162,7 @@ const cage_result *cage_prove_result(const cage_proof *proof);
 
 /* Where can the pivot be? mask[i + nx (j + ny k)] becomes 1 where the point origin + pitch (i, j, k) lies in
  * the reached part of the inner slices for some rotation, else 0; count = {nx, ny, nz}, nz = 1 in
- * the plane. Builds slices again: takes as long as a part of the proof. For pictures and statistics. */
+ * the plane, origin[2] = 0. Builds slices again: takes as long as a part of the proof. For pictures and statistics. */
 int32_t cage_prove_region(cage_proof *proof, const int32_t origin[3], int32_t pitch,
                           const int32_t count[3], uint8_t *mask);
 

@@ -105,14 +105,29 @@ static bool arc_clear(const cage_scene *scene, const int32_t pivot[3], const int
     return true;
 }
 
-/* The rotation k / n of the way from q to r, to 2^30: (n - k) q + k r, in 64 bits, shifted down. In the plane it stays on the arc. */
+/* q times a power of two, the largest entry above 2^29, at most 2^30. */
+static void lengthen(const int32_t q[4], int64_t out[4])
+{
+    int64_t largest = 0;
+    for (int32_t i = 0; i < 4; i++) {
+        out[i] = q[i];
+        largest = largest < out[i] ? out[i] : largest < -out[i] ? -out[i] : largest;
+    }
+    for (; largest > 0 && largest <= (int64_t)1 << 29; largest *= 2)
+        for (int32_t i = 0; i < 4; i++)
+            out[i] *= 2;
+}
+
+/* A rotation about k / n of the way from q to r: (n - k) q + k r, both of nearly the same length. In the plane it stays on the arc. */
 static void between(const int32_t q[4], const int32_t r[4], int32_t k, int32_t n, int32_t out[4])
 {
-    int64_t mixed[4], dot = 0, largest = 0;
+    int64_t a[4], b[4], mixed[4], dot = 0, largest = 0;
+    lengthen(q, a);
+    lengthen(r, b);
     for (int32_t i = 0; i < 4; i++)
-        dot += (int64_t)q[i] * r[i]; /* <= 2^62 */
+        dot += a[i] * b[i]; /* <= 2^62 */
     for (int32_t i = 0; i < 4; i++) {
-        mixed[i] = (int64_t)(n - k) * q[i] + (dot < 0 ? -1 : 1) * (int64_t)k * r[i]; /* n 2^30 */
+        mixed[i] = (n - k) * a[i] + (dot < 0 ? -k : k) * b[i]; /* <= n 2^30 */
         int64_t size = mixed[i] < 0 ? -mixed[i] : mixed[i];
         largest = size > largest ? size : largest;
     }
@@ -123,10 +138,19 @@ static void between(const int32_t q[4], const int32_t r[4], int32_t k, int32_t n
         out[i] = (int32_t)(mixed[i] / divisor);
 }
 
+/* Quaternions at right angles: there are two shorter arcs. */
+static bool ambiguous(const int32_t q[4], const int32_t r[4])
+{
+    int64_t dot = 0; /* <= 2^62 */
+    for (int32_t i = 0; i < 4; i++)
+        dot += (int64_t)q[i] * r[i];
+    return dot == 0;
+}
+
 /* The whole arc, in pieces as small as need be. */
 static bool turn_clear(const cage_scene *scene, const int32_t pivot[3], const int32_t p[3], const int32_t q[4], const int32_t r[4])
 {
-    for (int32_t n = 1; n <= SPLITS; n *= 4) {
+    for (int32_t n = 1; n <= SPLITS && !ambiguous(q, r); n *= 4) {
         bool clear = true;
         int32_t from[4] = {q[0], q[1], q[2], q[3]}, to[4];
         for (int32_t k = 1; clear && k <= n; k++) {
@@ -226,8 +250,12 @@ int32_t cage_path_check(const cage_scene *scene, const cage_pose *start, const c
             error = CAGE_ERROR_RANGE;
     if (error != CAGE_OK)
         return error;
+    if (pivot[2] != 0)
+        return CAGE_ERROR_DIMENSION;
     for (int32_t n = 0; n < count; n++) {
         const cage_pose *at = &path[n];
+        if (at->x[2] != 0)
+            return CAGE_ERROR_DIMENSION;
         cage_pose turn_only = {{0, 0, 0}, {at->q[0], at->q[1], at->q[2], at->q[3]}};
         error = cage_pose_check(scene->dim, &turn_only);
         if (error != CAGE_OK)

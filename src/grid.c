@@ -69,7 +69,7 @@ int64_t cage_turn(const int32_t q[4], const int32_t other[4])
 
 int32_t cage_displacement(int64_t turn, int32_t reach)
 {
-    /* (2^32 + 2) 2^29 + 2^31 < 2^62; the result is at most 2^30 + 1 */
+    /* (2^32 + 17) 2^29 + 2^31 < 2^62; the result is at most 2^30 + 5 */
     return (int32_t)((turn * reach + ((int64_t)1 << TURN_BITS) - 1) >> TURN_BITS);
 }
 

@@ -17,7 +17,7 @@ void cage_rotation_of(const int32_t q[4], struct cage_rotation *rotation);
 void cage_rotate(const struct cage_rotation *rotation, const int32_t y[3], int32_t out[3]);
 
 /* Twice the sine of the angle between two quaternions (that is, the largest |R y - R' y| / |y|), in units of 2^-31, rounded up: at most
- * 2^32 + 2. Only for angles up to 90 degrees is the sine monotone; callers stay below. */
+ * 2^32 + 17. Only for angles up to 90 degrees is the sine monotone; callers stay below. */
 int64_t cage_turn(const int32_t q[4], const int32_t other[4]);
 
 /* An upper bound of turn times reach, in grid units: 0 <= reach <= 2^29. */
@@ -34,7 +34,7 @@ int32_t cage_length(const int32_t v[3]);
 #define CAGE_SLACK_INNER 2
 #define CAGE_SLACK_OUTER 8
 
-/* What the displacement d changes in the radius R + r of a collision ball; sign -1: inner, +1: outer. |change| < 2^30 + 9. */
+/* What the displacement d changes in the radius R + r of a collision ball; sign -1: inner, +1: outer. |change| < 2^30 + 14. */
 int32_t cage_radius_change(int32_t displacement, int32_t sign);
 
 #endif

@@ -6,7 +6,7 @@
 #include "certify.h"
 #include "proof.h"
 
-enum { FAR_2D = 3 << 29, FAR_3D = 1 << 25, CLIPS = 64 };
+enum { FAR_2D = 5 << 28, FAR_3D = 1 << 25, CLIPS = 64 };
 
 /* Directions in which the sentinels lie from the centre of their simplex: from a point that is nearest to a sentinel, the
  * ray in its direction is free. */
@@ -95,7 +95,7 @@ static struct point toward(const struct cage_triangulation *t, int32_t s, struct
         /* scaled by 2^29 / all: < 2^126 before the division in space too, after dropping 16 bits there */
         uint32_t shift = t->dim == 2 ? 0 : 16;
         cage_i128 size = cage_i128_shr(cage_i128_abs(offset[k]), shift);
-        int64_t to = cage_i128_nearest(cage_i128_scale(size, t->dim == 2 ? 1 << 29 : FAR_3D), cage_i128_shr(all, shift), FAR_2D);
+        int64_t to = cage_i128_nearest(cage_i128_scale(size, t->dim == 2 ? 1 << 29 : FAR_3D), cage_i128_shr(all, shift), 1 << 29);
         a.x[k] += (int32_t)(cage_i128_negative(offset[k]) ? -to : to);
     }
     return a;

@@ -125,9 +125,15 @@ static int32_t step_path(struct cage_proof *proof)
         proof->result.path_count = proof->path_count;
         return finish(proof, proof->graph.goal ? CAGE_CONNECTED : CAGE_FREE, CAGE_REASON_PATH);
     }
-    if (done == CAGE_PATH_FAILED)
+    if (done != CAGE_PATH_FAILED)
+        return done;
+    /* The way exists, but no leg on the grid was certified for it: leave this edge out and look for another. */
+    struct cage_node *leg = proof->leg, *next = leg ? leg->next_open : NULL;
+    if (!leg || (!leg->via && !next))
         return finish(proof, CAGE_UNDEFINED, CAGE_REASON_LEVEL);
-    return done;
+    (leg->via ? leg : next)->via->banned = 1;
+    last_resort(proof, CAGE_REASON_LEVEL);
+    return CAGE_OK;
 }
 
 static int32_t step(struct cage_proof *proof)
@@ -159,7 +165,8 @@ void cage_limits_default(cage_limits *limits, int32_t dim)
 
 static int32_t limits_check(const cage_limits *limits)
 {
-    if (limits->side < CAGE_SIDE_INNER || limits->side > CAGE_SIDE_BOTH || limits->max_cells < 2)
+    if (limits->side < CAGE_SIDE_INNER || limits->side > CAGE_SIDE_BOTH || limits->max_cells < 2 ||
+        limits->max_cells > 1 << 24)
         return CAGE_ERROR_ARGUMENT;
     if (limits->max_level < 0 || limits->max_level > CAGE_LEVEL_MAX_2D)
         return CAGE_ERROR_ARGUMENT;

@@ -28,6 +28,8 @@ int32_t cage_prove_region(cage_proof *proof, const int32_t origin[3], int32_t pi
 {
     if (!proof || !origin || !count || !mask || pitch < 1 || count[0] < 0 || count[1] < 0 || count[2] < 0)
         return CAGE_ERROR_ARGUMENT;
+    if (proof->scene.dim == 2 && (origin[2] != 0 || count[2] > 1))
+        return CAGE_ERROR_DIMENSION;
     if (proof->error != CAGE_OK)
         return proof->error;
     memset(mask, 0, (size_t)count[0] * (size_t)count[1] * (size_t)count[2]);

@@ -2,26 +2,42 @@
 #include "certify.h"
 #include "proof.h"
 
+static int32_t make(struct cage_proof *proof, int32_t side, int32_t cell, struct cage_slice *slice)
+{
+    return cage_slice_make(&proof->scratch, &proof->side[side], &proof->graph.cell[cell].rotations, slice);
+}
+
+static int32_t put(struct cage_proof *proof, int32_t side, int32_t cell, const struct cage_slice *slice)
+{
+    if (cage_store_put(&proof->store, slice, &proof->graph.cell[cell].facts[side].held))
+        return CAGE_OK;
+    proof->scratch.needed = 0;
+    return CAGE_ERROR_MEMORY;
+}
+
 /* An outer component lies in an inner one: any of its points tells which. */
 static int32_t place_inside(struct cage_proof *proof, const struct cage_slice *outer, int32_t cell)
 {
-    const struct cage_slice *inner;
-    if (proof->graph.cell[cell].facts[CAGE_INNER].nodes == 0)
+    struct cage_facts *facts = proof->graph.cell[cell].facts;
+    struct cage_slice made;
+    if (facts[CAGE_INNER].nodes == 0)
         return CAGE_OK;
-    int32_t error = cage_proof_slice(proof, CAGE_INNER, cell, &inner);
+    size_t mark = proof->scratch.used;
+    const struct cage_slice *inner = facts[CAGE_INNER].held ? &facts[CAGE_INNER].held->slice : &made;
+    int32_t error = inner == &made ? make(proof, CAGE_INNER, cell, &made) : CAGE_OK;
     for (int32_t k = 0; k < outer->regions && error == CAGE_OK; k++)
         if (outer->region[k].known)
-            proof->graph.cell[cell].facts[CAGE_OUTER].node[k].inside = cage_slice_locate(inner, outer->region[k].point);
+            facts[CAGE_OUTER].node[k].inside = cage_slice_locate(inner, outer->region[k].point);
+    cage_arena_release(&proof->scratch, mark);
     return error;
 }
 
-/* Build a slice and store it last, as whatever else is built on the way may drop what was stored before. */
 static int32_t build(struct cage_proof *proof, int32_t side, int32_t cell, struct cage_held **held)
 {
     struct cage_slice slice;
     size_t mark = proof->scratch.used;
     struct cage_facts *facts = &proof->graph.cell[cell].facts[side];
-    int32_t error = cage_slice_make(&proof->scratch, &proof->side[side], &proof->graph.cell[cell].rotations, &slice);
+    int32_t error = make(proof, side, cell, &slice);
     if (error == CAGE_OK && facts->nodes == 0) {
         error = cage_graph_add_nodes(&proof->graph, side, cell, slice.regions);
         proof->result.slices[side]++;
@@ -30,10 +46,8 @@ static int32_t build(struct cage_proof *proof, int32_t side, int32_t cell, struc
         if (error == CAGE_OK && side == CAGE_OUTER)
             error = place_inside(proof, &slice, cell);
     }
-    if (error == CAGE_OK && !cage_store_put(&proof->store, &slice, &facts->held)) {
-        proof->scratch.needed = 0;
-        error = CAGE_ERROR_MEMORY;
-    }
+    if (error == CAGE_OK)
+        error = put(proof, side, cell, &slice);
     cage_arena_release(&proof->scratch, mark);
     *held = facts->held;
     return error;

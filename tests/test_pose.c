@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "cage.h"
 #include "exact.h"
 
 enum { PLENTY = 32 << 20 };
