@@ -19,8 +19,8 @@ for source in tests/test_*.c; do
     add "$test" "build/test/$test"
     add "$test, ASan and UBSan" "$quick CAGE_TEST_SCENES=20 build/sanitized/$test"
 done
-for name in arena wide predicate order delaunay component glue store pose answers; do
-    add "test_$name, Valgrind" "$quick CAGE_TEST_SCENES=4 $memcheck build/test/test_$name"
+for name in delaunay answers predicate wide arena component glue store pose; do
+    add "test_$name, Valgrind" "$quick CAGE_TEST_SCENES=2 $memcheck build/test/test_$name"
 done
 add "the command, Valgrind" "$memcheck build/cage prove --object examples/walls/plus.xyzr --obstacles examples/walls/walls_R10.xyzr \
   --start 300,320,45 --svg build/test/walls.svg --json"
