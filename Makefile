@@ -28,7 +28,7 @@ build/core/%.o: src/%.c $(HEADERS) Makefile
 
 build/pic/%.o: src/%.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
-	$(CC) -std=c99 -ffreestanding -fPIC $(CFLAGS) $(WARN) -Iinclude -c $< -o $@
+	$(CC) -std=c99 -ffreestanding -fPIC -fvisibility=hidden $(CFLAGS) $(WARN) -Iinclude -c $< -o $@
 
 build/host/%.o: src/host/%.c $(HEADERS) Makefile
 	@mkdir -p $(@D)

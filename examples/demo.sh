@@ -14,9 +14,9 @@ value() {
     sed -n "s/^  \"$2\": \"*\\([^\"]*\\)\"*,\$/\\1/p" "$1"
 }
 
-# A pose of the walls by its name.
+# A pose by its name, from a folder's list.
 at() {
-    awk -v name="$1" '$1 == name { print $2 }' "$examples/walls/poses.txt"
+    awk -v name="$2" '$1 == name { print $2 }' "$examples/$1/poses.txt"
 }
 
 row() {
@@ -42,12 +42,18 @@ ask() {
 walls() {
     goal=${4:+ to $4}
     ask "walls, R = $1" "$3$goal" "$2" "walls_R$1_$3${4:+_to_$4}" --object "$examples/walls/plus.xyzr" \
-        --obstacles "$examples/walls/walls_R$1.xyzr" --start "$(at "$3")" ${4:+--goal "$(at "$4")"}
+        --obstacles "$examples/walls/walls_R$1.xyzr" --start "$(at walls "$3")" ${4:+--goal "$(at walls "$4")"}
 }
 
 # folder, object, obstacles, expected verdict; all start at 0,0,0
 small() {
     ask "$1" "$2 in $3" "$4" "$1_$3" --object "$examples/$1/$2.xyzr" --obstacles "$examples/$1/$3.xyzr" --start 0,0,0
+}
+
+# object, obstacles, expected verdict, start, [goal], [side]; a mesh is drawn as well
+space() {
+    ask space "$1 in $2" "$3" "space_$1_in_$2" --object "$examples/space/$1.xyzr" --obstacles "$examples/space/$2.xyzr" \
+        --start "$(at space "$4")" ${5:+--goal "$(at space "$5")"} --side "${6:-both}" --ply "$folder/space_$1_in_$2.ply"
 }
 
 row scene query verdict expected "slices in+out" seconds picture
@@ -72,6 +78,23 @@ small grasp part fingers_closed CAGED
 small grasp part fingers_open FREE
 small key key lock_locked CAGED
 small key key lock_open FREE
+space guest shell CAGED home
+space guest shell_moved CAGED shell_moved
+space guest sieve FREE home
+space ring link FREE unlinked
+space dumbbell_small hoop FREE home
+space coin bank_wide FREE home
+space mug hook FREE home '' outer
+space peanut chambers_narrow DISCONNECTED left_chamber right_chamber
+space peanut chambers_wide CONNECTED left_chamber right_chamber outer
+# These take from five seconds to minutes:
+# space ell pot_closed CAGED in_pot
+# space ell pot_open FREE in_pot '' outer
+# space screw coil FREE home '' outer
+# space coin bank_narrow CAGED home
+# space dumbbell_large hoop CAGED home
+# space ring link CAGED home
+# space mug eye CAGED home
 
 if [ "$failed" -gt 0 ]; then
     echo "$failed of the verdicts are not the ones expected" >&2

@@ -1,9 +1,9 @@
 /* cage.h: prove that a rigid object made of balls cannot leave, or find its way out.
  *
  * The object is a union of balls in its own frame, the obstacles a union of balls in the world, in
- * the plane (dim 2) or in space (dim 3; proofs: plane only in this version). Every number is an integer: lengths are
- * in grid units of the caller's choice, rotations are integer quaternions. A pose (x, R) collides when
- * some object ball and some obstacle ball overlap, |x + R y - X| < r + R; touching is allowed.
+ * the plane (dim 2) or in space (dim 3). Every number is an integer: lengths are in grid units of the
+ * caller's choice, rotations are integer quaternions. A pose (x, R) collides when some object ball and
+ * some obstacle ball overlap, |x + R y - X| < r + R; touching is allowed.
  *
  * Every verdict but UNDEFINED is a theorem about the balls given. Method: Varava, Carvalho, Pokorny,
  * Kragic, "Caging and Path Non-Existence: a Deterministic Sampling-Based Verification Algorithm",
@@ -21,6 +21,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#if defined __GNUC__ && !defined _WIN32
+#pragma GCC visibility push(default) /* the shared library exports what is declared here, and nothing else */
+#endif
 
 #define CAGE_VERSION "0.1.0"
 #define CAGE_ABI 1 /* changes whenever a struct or a signature below does */
@@ -34,8 +37,9 @@ extern "C" {
 #define CAGE_QUATERNION_2D (1 << 30)
 #define CAGE_QUATERNION_3D (1 << 24)
 
-/* The finest level of cells: the plane is cut into 2 * 2^level cells of rotations. */
+/* The finest level of cells: the plane's rotations are cut into 2 * 2^level cells, those of space into 4 * 8^level. */
 #define CAGE_LEVEL_MAX_2D 14
+#define CAGE_LEVEL_MAX_3D 11
 
 /* ---- errors ------------------------------------------------------------------------------------- */
 #define CAGE_OK 0
@@ -44,7 +48,7 @@ extern "C" {
 #define CAGE_ERROR_RANGE (-3)     /* the scene or a pose does not fit CAGE_REACH */
 #define CAGE_ERROR_RADIUS (-4)    /* a negative radius */
 #define CAGE_ERROR_ROTATION (-5)  /* a quaternion of zero, too large, or not about z in the plane */
-#define CAGE_ERROR_MEMORY (-6)    /* the block is too small: see cage_prove_size, cage_result.needed_bytes */
+#define CAGE_ERROR_MEMORY (-6)    /* the block is too small: to begin see cage_prove_size, once begun cage_result.needed_bytes */
 
 /* ---- verdicts ----------------------------------------------------------------------------------- */
 #define CAGE_UNDEFINED 0    /* a limit was reached first, or the work is not finished: see reason */
@@ -102,8 +106,8 @@ typedef struct cage_pose {
 typedef struct cage_limits {
     int32_t side;        /* CAGE_SIDE_... */
     int32_t start_level; /* the cells' first level, or -1: chosen from the balls */
-    int32_t max_level;   /* 0 to CAGE_LEVEL_MAX_2D */
-    int32_t max_cells;   /* cells ever made, 2 to 2^24 */
+    int32_t max_level;   /* 0 to CAGE_LEVEL_MAX */
+    int32_t max_cells;   /* cells ever made: at least those down to start_level (2, 6, 14, ...; in space 4, 36, 292, ...), at most 2^24 */
 } cage_limits;
 
 /* ---- output -------------------------------------------------------------------------------------- */
@@ -115,7 +119,7 @@ typedef struct cage_result {
     int32_t level;          /* of the finest cell made */
     int32_t cells;          /* cells made, refined ones included */
     int32_t slices[2];      /* slices built */
-    int32_t gluings[2];     /* pairs of neighbouring slices glued */
+    int32_t gluings[2];     /* pairs of neighbouring slices glued, counted for each connected group of components */
     int32_t mixtures[2];    /* gluings that needed a triangulation of their own */
     int32_t reached[2];     /* (cell, component) nodes reached from the start when the search ended */
     int64_t balls[2];       /* collision balls of all slices */
@@ -143,12 +147,14 @@ typedef struct cage_proof cage_proof; /* lives at the start of the caller's bloc
 
 void cage_limits_default(cage_limits *limits, int32_t dim);
 
-/* Bytes that a proof of this scene needs to begin and to do ordinary work; more memory never changes
- * an answer, it only saves building slices twice. 0 if the scene is not valid. */
+/* Bytes that are enough for a proof of this scene to begin, at any alignment, and to do ordinary work; more memory never changes
+ * an answer, it only saves building slices twice. Limits null: the default ones. 0 if the scene or the limits are not valid. */
 size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits);
 
 /* Ask: can the object leave the start (goal null), or get from start to goal? The scene's balls are
- * read until the proof is finished; memory (any alignment) is used until the result was read. */
+ * read until the proof is finished; memory (any alignment) is used until the result was read. Limits null: the default
+ * ones. When this fails *proof is not written, so after CAGE_ERROR_MEMORY there is no result to read needed_bytes from:
+ * ask cage_prove_size, a block of that size is never too small to begin. */
 int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage_pose *start,
                          const cage_pose *goal, const cage_limits *limits, void *memory, size_t bytes);
 
@@ -157,7 +163,7 @@ int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage
  * answer does not depend on how the steps are portioned. */
 int32_t cage_prove_run(cage_proof *proof, int64_t steps);
 
-/* The result so far; verdict is CAGE_UNDEFINED until cage_prove_run returned 1. */
+/* The result so far (null for null); verdict is CAGE_UNDEFINED until cage_prove_run returned 1. */
 const cage_result *cage_prove_result(const cage_proof *proof);
 
 /* Where can the pivot be? mask[i + nx (j + ny k)] becomes 1 where the point origin + pitch (i, j, k) lies in
@@ -186,6 +192,9 @@ const char *cage_verdict_text(int32_t verdict); /* "CAGED", ... */
 const char *cage_reason_text(int32_t reason);
 const char *cage_error_text(int32_t error);
 
+#if defined __GNUC__ && !defined _WIN32
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif

@@ -81,7 +81,7 @@ bool cage_certify_leg(const cage_scene *scene, const int32_t pivot[3], const int
     return true;
 }
 
-/* May the object turn about the pivot at p from q to r? Tested from q's end. */
+/* May the object turn about the pivot at p from q to r, both ends off the arc that is meant by at most 2^-28? Tested from q's end. */
 static bool arc_clear(const cage_scene *scene, const int32_t pivot[3], const int32_t p[3], const int32_t q[4], const int32_t r[4])
 {
     for (int32_t i = 0; i < scene->object.outer_count; i++) {
@@ -93,8 +93,9 @@ static bool arc_clear(const cage_scene *scene, const int32_t pivot[3], const int
         cage_i128 square = cage_i128_of(0);
         for (int32_t k = 0; k < 3; k++)
             square = cage_i128_add(square, cage_i128_mul(moved[k], moved[k]));
-        /* The root rounded up, both ends off by less than 1, and the centre itself. */
-        int64_t spare = (int64_t)cage_u128_root(square) + 1 + 2 + 1;
+        /* The root rounded up, and three times 0.87 for the rounding of both ends and of the centre; that the ends are off the arc adds less
+         * than three times 2^-5 in space, where |Y| < 2^22, and nothing in the plane. */
+        int64_t spare = (int64_t)cage_u128_root(square) + 1 + 3;
         for (int32_t j = 0; j < scene->obstacles.outer_count; j++) {
             const cage_ball *x = &scene->obstacles.outer[j];
             const int64_t centre[3] = {x->x - at[0], x->y - at[1], x->z - at[2]};
@@ -118,7 +119,8 @@ static void lengthen(const int32_t q[4], int64_t out[4])
             out[i] *= 2;
 }
 
-/* A rotation about k / n of the way from q to r: (n - k) q + k r, both of nearly the same length. In the plane it stays on the arc. */
+/* A rotation about k / n of the way from q to r: (n - k) q + k r, both of nearly the same length. In the plane it stays on the arc;
+ * in space it is off by less than 2 in 2^29, the size of its largest entry: 2^-28. */
 static void between(const int32_t q[4], const int32_t r[4], int32_t k, int32_t n, int32_t out[4])
 {
     int64_t a[4], b[4], mixed[4], dot = 0, largest = 0;
@@ -240,21 +242,20 @@ int32_t cage_path_check(const cage_scene *scene, const cage_pose *start, const c
         return error;
     if (!start || !pivot || !path || count < 1)
         return CAGE_ERROR_ARGUMENT;
-    if (scene->dim != 2)
-        return CAGE_ERROR_DIMENSION;
+    int32_t reach = scene->dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
     error = cage_pose_check(scene->dim, start);
     if (error == CAGE_OK && goal)
         error = cage_pose_check(scene->dim, goal);
     for (int32_t i = 0; i < 3 && error == CAGE_OK; i++)
-        if (pivot[i] < -CAGE_REACH_2D || pivot[i] > CAGE_REACH_2D)
+        if (pivot[i] < -reach || pivot[i] > reach)
             error = CAGE_ERROR_RANGE;
     if (error != CAGE_OK)
         return error;
-    if (pivot[2] != 0)
+    if (scene->dim == 2 && pivot[2] != 0)
         return CAGE_ERROR_DIMENSION;
     for (int32_t n = 0; n < count; n++) {
         const cage_pose *at = &path[n];
-        if (at->x[2] != 0)
+        if (scene->dim == 2 && at->x[2] != 0)
             return CAGE_ERROR_DIMENSION;
         cage_pose turn_only = {{0, 0, 0}, {at->q[0], at->q[1], at->q[2], at->q[3]}};
         error = cage_pose_check(scene->dim, &turn_only);

@@ -15,7 +15,7 @@ bool cage_simplex_outer(const struct cage_triangulation *t, int32_t s)
     return false;
 }
 
-static bool is_free(const struct cage_triangulation *t, int32_t s)
+bool cage_component_free(const struct cage_triangulation *t, int32_t s)
 {
     if (cage_simplex_outer(t, s))
         return true; /* its power is positive: it is |o - sentinel|^2 + 1 */
@@ -88,7 +88,7 @@ int32_t cage_components(struct cage_arena *arena, const struct cage_triangulatio
         return CAGE_ERROR_MEMORY;
     }
     for (int32_t s = 0; s < t->simplices; s++) {
-        out->label[s] = is_free(t, s) ? UNSEEN : CAGE_COVERED;
+        out->label[s] = cage_component_free(t, s) ? UNSEEN : CAGE_COVERED;
         if (out->label[s] == UNSEEN && cage_simplex_outer(t, s)) {
             out->label[s] = CAGE_OUTSIDE;
             stack[depth++] = s;

@@ -18,6 +18,9 @@ struct cage_components {
 /* The two arrays are taken from the arena. */
 int32_t cage_components(struct cage_arena *arena, const struct cage_triangulation *t, struct cage_components *out);
 
+/* Is the simplex free? */
+bool cage_component_free(const struct cage_triangulation *t, int32_t s);
+
 /* Is facet i of the free simplex s, between it and another free one, a wall? */
 bool cage_component_wall(const struct cage_triangulation *t, int32_t s, int32_t i);
 

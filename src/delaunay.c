@@ -248,9 +248,9 @@ static CAGE_INLINE bool stitch(int32_t dim, struct build *b, int32_t p, int32_t 
     return true;
 }
 
-static CAGE_INLINE bool insert_all(int32_t dim, struct build *b, int32_t sites)
+static CAGE_INLINE bool insert_all(int32_t dim, struct build *b, int32_t first, int32_t sites)
 {
-    for (int32_t p = dim + 1; p < sites; p++) {
+    for (int32_t p = first; p < sites; p++) {
         int32_t s = walk(dim, b->site, b->simplex, &b->site[p], b->last);
         b->last = s;
         if (!in_conflict(dim, b, s, &b->site[p]))
@@ -262,8 +262,8 @@ static CAGE_INLINE bool insert_all(int32_t dim, struct build *b, int32_t sites)
     return true;
 }
 
-static bool insert_all_2d(struct build *b, int32_t sites) { return insert_all(2, b, sites); }
-static bool insert_all_3d(struct build *b, int32_t sites) { return insert_all(3, b, sites); }
+static bool insert_all_2d(struct build *b, int32_t first, int32_t sites) { return insert_all(2, b, first, sites); }
+static bool insert_all_3d(struct build *b, int32_t first, int32_t sites) { return insert_all(3, b, first, sites); }
 
 static struct cage_site make_site(int32_t x, int32_t y, int32_t z, int32_t r, int64_t weight)
 {
@@ -315,11 +315,71 @@ static size_t slots_expected(int32_t dim, int32_t sites)
     return dim == 2 ? 4 * (size_t)sites : 9 * (size_t)sites + 64;
 }
 
+/* What is needed beside sites and slots, rounding included. */
+static size_t bytes_beside(int32_t dim, int32_t sites)
+{
+    return 3 * CAGE_ALIGN + (dim == 3 ? (size_t)sites * sizeof(int32_t) + sizeof(struct ridges) : 0);
+}
+
 /* Bytes from a mark on that suffice (a guess in space): sites, their order and its scratch, their numbers, slots. */
 static size_t bytes_expected(int32_t dim, int32_t sites)
 {
-    return (size_t)sites * (sizeof(struct cage_site) + 6 * sizeof(int32_t)) + slots_expected(dim, sites) * BYTES_PER_SIMPLEX + 8 * CAGE_ALIGN +
-           (dim == 3 ? sizeof(struct ridges) : 0);
+    return (size_t)sites * (sizeof(struct cage_site) + 5 * sizeof(int32_t)) + slots_expected(dim, sites) * BYTES_PER_SIMPLEX +
+           5 * CAGE_ALIGN + bytes_beside(dim, sites);
+}
+
+/* All that is left of the arena serves as slots, of which the first are these simplices; slots not used will not count. */
+static bool take_slots(struct cage_arena *arena, int32_t dim, const struct cage_site *site, int32_t sites,
+                       const struct cage_simplex *first, int32_t simplices, struct build *b)
+{
+    size_t beside = bytes_beside(dim, sites), bytes = cage_arena_room(arena, 1);
+    size_t room = bytes > beside ? (bytes - beside) / BYTES_PER_SIMPLEX : 0;
+    b->site = site;
+    b->simplices = simplices;
+    b->dead = -1;
+    b->last = 0;
+    b->capacity = room > INT32_MAX / 4 ? INT32_MAX / 4 : (int32_t)room;
+    b->simplex = cage_arena_take(arena, (size_t)b->capacity, sizeof *b->simplex);
+    int32_t *lists = cage_arena_take(arena, (size_t)b->capacity, BYTES_PER_SIMPLEX - sizeof *b->simplex);
+    b->number = dim == 3 ? cage_arena_take(arena, (size_t)sites, sizeof *b->number) : NULL;
+    b->ridges = dim == 3 ? cage_arena_take(arena, 1, sizeof *b->ridges) : NULL;
+    if (b->capacity < simplices || !b->simplex || !lists || (dim == 3 && (!b->number || !b->ridges)))
+        return false;
+    b->mark = lists;
+    b->hole = lists + b->capacity;
+    b->front = lists + 2 * (size_t)b->capacity;
+    memcpy(b->simplex, first, (size_t)simplices * sizeof *first);
+    memset(b->mark, 0, (size_t)simplices * sizeof *b->mark);
+    if (dim == 3) {
+        memset(b->number, 0, (size_t)sites * sizeof *b->number);
+        memset(b->ridges->listed, 0, sizeof b->ridges->listed);
+    }
+    return true;
+}
+
+/* Insert sites from `first` on; the simplices, in slots, stay in the arena, what else was taken is given back. */
+static int32_t build(struct cage_arena *arena, struct cage_triangulation *t, const struct cage_simplex *from, int32_t simplices, int32_t first,
+                     size_t mark, bool dense)
+{
+    struct build b;
+    size_t kept = arena->used, peak = arena->peak, beside = bytes_beside(t->dim, t->sites);
+    bool done = take_slots(arena, t->dim, t->site, t->sites, from, simplices, &b);
+    if (done)
+        done = t->dim == 2 ? insert_all_2d(&b, first, t->sites) : insert_all_3d(&b, first, t->sites);
+    arena->peak = peak;
+    cage_arena_release(arena, done ? kept : mark);
+    if (!done) {
+        size_t expected = slots_expected(t->dim, t->sites), room = (size_t)b.capacity;
+        arena->needed = kept + (expected > room ? expected : 2 * room + 1) * BYTES_PER_SIMPLEX + beside + 4 * CAGE_ALIGN;
+        return CAGE_ERROR_MEMORY;
+    }
+    if (dense)
+        compact(t->dim, &b);
+    if (arena->peak < kept + (size_t)b.simplices * BYTES_PER_SIMPLEX + beside)
+        arena->peak = kept + (size_t)b.simplices * BYTES_PER_SIMPLEX + beside;
+    t->simplex = cage_arena_take(arena, (size_t)b.simplices, sizeof *b.simplex);
+    t->simplices = b.simplices;
+    return CAGE_OK;
 }
 
 int32_t cage_delaunay(struct cage_arena *arena, int32_t dim, const cage_ball *ball, int32_t count,
@@ -341,53 +401,29 @@ int32_t cage_delaunay(struct cage_arena *arena, int32_t dim, const cage_ball *ba
         const cage_ball *from = &ball[input[i]];
         site[i] = make_site(from->x, from->y, from->z, from->r, (int64_t)from->r * from->r);
     }
+    struct cage_triangulation t = {site, input, NULL, dim, sites, 0};
+    const struct cage_simplex first = {{0, 1, 2, dim == 2 ? 0 : 3}, {CAGE_HULL, CAGE_HULL, CAGE_HULL, CAGE_HULL}};
+    int32_t error = build(arena, &t, &first, 1, dim + 1, mark, true);
+    if (error == CAGE_OK)
+        *out = t;
+    return error;
+}
 
-    struct build b;
-    /* All that is left serves as slots, but for the numbers of sites and what rounding costs; slots not used are not counted. */
-    size_t kept = arena->used, expected = slots_expected(dim, sites), beside = 3 * CAGE_ALIGN;
-    if (dim == 3)
-        beside += (size_t)sites * sizeof *b.number + sizeof *b.ridges;
-    size_t bytes = cage_arena_room(arena, 1), room = bytes > beside ? (bytes - beside) / BYTES_PER_SIMPLEX : 0;
-    b.site = site;
-    b.simplices = 1;
-    b.dead = -1;
-    b.last = 0;
-    b.capacity = room > INT32_MAX / 4 ? INT32_MAX / 4 : (int32_t)room;
-    size_t peak = arena->peak;
-    b.simplex = cage_arena_take(arena, (size_t)b.capacity, sizeof *b.simplex);
-    int32_t *lists = cage_arena_take(arena, (size_t)b.capacity, BYTES_PER_SIMPLEX - sizeof *b.simplex);
-    b.number = dim == 3 ? cage_arena_take(arena, (size_t)sites, sizeof *b.number) : NULL;
-    b.ridges = dim == 3 ? cage_arena_take(arena, 1, sizeof *b.ridges) : NULL;
-    bool done = false;
-    if (b.capacity > 0 && b.simplex && lists && (dim == 2 || (b.number && b.ridges))) {
-        b.mark = lists;
-        b.hole = lists + b.capacity;
-        b.front = lists + 2 * (size_t)b.capacity;
-        const struct cage_simplex first = {{0, 1, 2, dim == 2 ? 0 : 3}, {CAGE_HULL, CAGE_HULL, CAGE_HULL, CAGE_HULL}};
-        b.simplex[0] = first;
-        b.mark[0] = 0;
-        if (dim == 3) {
-            memset(b.number, 0, (size_t)sites * sizeof *b.number);
-            memset(b.ridges->listed, 0, sizeof b.ridges->listed);
-        }
-        done = dim == 2 ? insert_all_2d(&b, sites) : insert_all_3d(&b, sites);
-    }
-    arena->peak = peak;
-    cage_arena_release(arena, done ? kept : mark);
-    if (!done) {
-        arena->needed = kept + (expected > room ? expected : 2 * room + 1) * BYTES_PER_SIMPLEX + beside + 4 * CAGE_ALIGN;
+int32_t cage_delaunay_extend(struct cage_arena *arena, const struct cage_triangulation *t, const struct cage_site *const *more, int32_t count,
+                             struct cage_triangulation *out)
+{
+    size_t mark = arena->used;
+    struct cage_triangulation made = {NULL, NULL, NULL, t->dim, t->sites + count, 0};
+    made.site = cage_arena_take(arena, (size_t)made.sites, sizeof *made.site);
+    if (!made.site)
         return CAGE_ERROR_MEMORY;
-    }
-    compact(dim, &b);
-    if (arena->peak < kept + (size_t)b.simplices * BYTES_PER_SIMPLEX + beside)
-        arena->peak = kept + (size_t)b.simplices * BYTES_PER_SIMPLEX + beside;
-    out->simplex = cage_arena_take(arena, (size_t)b.simplices, sizeof *b.simplex);
-    out->site = site;
-    out->ball = input;
-    out->dim = dim;
-    out->sites = sites;
-    out->simplices = b.simplices;
-    return CAGE_OK;
+    memcpy(made.site, t->site, (size_t)t->sites * sizeof *t->site);
+    for (int32_t i = 0; i < count; i++)
+        made.site[t->sites + i] = *more[i];
+    int32_t error = build(arena, &made, t->simplex, t->simplices, t->sites, mark, false);
+    if (error == CAGE_OK)
+        *out = made;
+    return error;
 }
 
 int32_t cage_delaunay_locate(const struct cage_triangulation *t, const int32_t p[3], int32_t hint)

@@ -1,218 +1,253 @@
 /* glue: which components of neighbouring slices share a point.
  *
- * Two cheap proofs decide nearly every pair of components K of slice c and L of slice d.
- *
- * They touch: a known grid point of one lies in the other.
- *
- * They do not: let R be the union of the full simplices of c reached from those labelled K without crossing a facet that
- * is proved to lie in the union of the closed balls of d (a barrier). K lies in R (location lemma), L is connected and meets no
- * barrier, so L lies in R or off it: one point of L tells. R extends beyond the sentinels' simplex iff it holds a
- * simplex with a sentinel, and the outside of d always does. For a barrier, take the facet's own balls as they are in d, shrunk
- * by how far they moved: B(z, r' - |z - z'|) lies in B(z', r').
- *
- * What is left undecided is settled for all pairs at once by the components of the union of both slices' balls: each lies in
- * one component of c and one of d (or in a phantom of one, see prune), told by its witness. */
+ * Cheap proofs (barrier.h) decide nearly every pair of components. What they leave undecided of a component K of c is settled
+ * exactly by a mixture: the balls of d, and those of c that are vertices of K's simplices. These are all balls that
+ * meet the border of K (from a point of K near a ball, in its power cell, a free way leads to a vertex of that cell, the
+ * orthocentre of a free simplex), so a component of the mixture lies in K or off it. One that lies in K and in a component L of
+ * d is all of L, or a ball of c meets its border, and it has a new simplex. So K and L touch iff the witness of
+ * L, or the orthocentre of some new free simplex, is in both: it is in K iff it is off all balls of c and in a simplex
+ * labelled K, and likewise in L. */
 #include "glue.h"
-#include "grid.h"
+#include "barrier.h"
 
-enum { UNDECIDED = 0, APART = 1, TOUCHING = 2 };
+#include <string.h>
 
-struct glue {
+/* The components of both slices that belong together, as they are found. */
+struct group {
     struct cage_arena *arena;
-    const struct cage_slice *c, *d;
-    int32_t *shrink;  /* for each part: what turns a radius of c into that of a ball inside the one of d */
-    int32_t *reached; /* for each simplex of c: last label that reached it, -1: none */
-    int32_t *stack;
-    int32_t *home; /* for each component of d: the simplex of c that holds its point, -1 if it has none */
+    const struct cage_slice *slice[2];
+    struct cage_view view[2]; /* from either */
+    int32_t *member;          /* those of the first slice as they are, of the second as -1 - l */
+    uint8_t *seen[2];         /* 1: a member, 2: and all pairs with it are decided */
+    int32_t members;
+    struct cage_touch *touch;
+    int32_t room;
+    int32_t count; /* room + 1: there were more */
 };
 
-static bool is_barrier(const struct glue *g, int32_t s, int32_t i)
+static void add_member(struct group *group, int32_t side, int32_t k)
 {
-    const struct cage_triangulation *t = &g->c->t;
-    const struct cage_site *face[3];
-    struct cage_site shrunk[3];
-    for (int32_t k = 0, n = 0; k <= t->dim; k++) {
-        if (k == i)
-            continue;
-        int32_t v = t->simplex[s].v[k];
-        if (v <= t->dim)
-            return false;
-        struct cage_site *site = &shrunk[n];
-        *site = t->site[v];
-        int32_t radius = site->r + g->shrink[t->ball[v]];
-        if (radius < 0)
-            return false;
-        site->h += (int64_t)site->r * site->r - (int64_t)radius * radius;
-        site->r = radius;
-        face[n++] = site;
-    }
-    return cage_facet_covered(t->dim, face);
+    if (group->seen[side][k])
+        return;
+    group->seen[side][k] = 1;
+    group->member[group->members++] = side == 0 ? k : -1 - k;
 }
 
-/* Mark R of component k; whether it holds a simplex with a sentinel. */
-static bool spread(const struct glue *g, int32_t k)
+static void add_touch(struct group *group, int32_t side, int32_t k, int32_t l, const int32_t x[3])
 {
-    const struct cage_triangulation *t = &g->c->t;
-    int32_t depth = 0;
-    bool outer = false;
+    if (group->count < group->room) {
+        struct cage_touch made = {side ? l : k, side ? k : l, {x[0], x[1], x[2]}};
+        group->touch[group->count] = made;
+    }
+    group->count += group->count <= group->room;
+    if (l != CAGE_OUTSIDE)
+        add_member(group, 1 - side, l);
+}
+
+/* ---- a mixture -------------------------------------------------------------------------------------- */
+
+/* The vertices of simplices labelled k, in their order; null: no memory. */
+static const struct cage_site **vertices_of(struct cage_arena *arena, const struct cage_slice *c, int32_t k, int32_t *count)
+{
+    const struct cage_triangulation *t = &c->t;
+    const struct cage_site **vertex = cage_arena_take(arena, (size_t)t->sites, sizeof *vertex);
+    uint8_t *used = cage_arena_take(arena, (size_t)t->sites, sizeof *used);
+    *count = 0;
+    if (!vertex || !used)
+        return NULL;
+    memset(used, 0, (size_t)t->sites);
     for (int32_t s = 0; s < t->simplices; s++)
-        if (g->c->label[s] == k) {
-            g->reached[s] = k;
-            g->stack[depth++] = s;
-        }
-    while (depth > 0) {
-        int32_t s = g->stack[--depth];
-        outer = outer || cage_simplex_outer(t, s);
-        for (int32_t i = 0; i <= t->dim; i++) {
-            int32_t twin = t->simplex[s].twin[i];
-            if (twin == CAGE_HULL || g->reached[twin >> 2] == k || is_barrier(g, s, i))
-                continue;
-            g->reached[twin >> 2] = k;
-            g->stack[depth++] = twin >> 2;
-        }
-    }
-    return outer;
+        for (int32_t i = 0; c->label[s] == k && i <= t->dim; i++)
+            used[t->simplex[s].v[i]] = 1;
+    for (int32_t i = t->dim + 1; i < t->sites; i++)
+        if (used[i])
+            vertex[(*count)++] = &t->site[i];
+    return vertex;
 }
 
-/* A common point of the two, if one of the known points is one. */
-static bool common_point(const struct glue *g, int32_t k, int32_t l, int32_t x[3])
+static bool off_all(const struct cage_slice *c, const struct cage_centre *centre)
 {
-    const struct cage_region *a = &g->c->region[k], *b = &g->d->region[l];
-    const int32_t *point = NULL;
-    if (k == CAGE_OUTSIDE && l == CAGE_OUTSIDE)
-        point = a->point[1] > b->point[1] ? a->point : b->point; /* above both bounding boxes */
-    else if (b->known && g->home[l] >= 0 && g->c->label[g->home[l]] == k && cage_slice_clear(g->c, b->point))
-        point = b->point;
-    else if (a->known && cage_slice_locate(g->d, a->point) == l)
-        point = a->point;
-    for (int32_t i = 0; point && i < 3; i++)
-        x[i] = point[i];
-    return point != NULL;
-}
-
-static int32_t decide(const struct glue *g, int32_t k, int32_t l, bool outer, int32_t x[3])
-{
-    if (l == CAGE_OUTSIDE ? !outer : g->home[l] >= 0 && g->reached[g->home[l]] != k)
-        return APART;
-    return common_point(g, k, l, x) ? TOUCHING : UNDECIDED;
-}
-
-/* Decide all pairs by the two proofs; false as soon as one stays undecided. */
-static bool glue_by_proof(struct glue *g, struct cage_touch *touch, int32_t room, int32_t *count)
-{
-    for (int32_t s = 0; s < g->c->t.simplices; s++)
-        g->reached[s] = -1;
-    for (int32_t l = 0; l < g->d->regions; l++)
-        g->home[l] = g->d->region[l].known ? cage_delaunay_locate(&g->c->t, g->d->region[l].point, 0) : -1;
-    for (int32_t k = 0; k < g->c->regions; k++) {
-        bool outer = spread(g, k);
-        for (int32_t l = 0; l < g->d->regions; l++) {
-            int32_t x[3], verdict = decide(g, k, l, outer, x);
-            if (verdict == UNDECIDED || (verdict == TOUCHING && *count == room))
-                return false;
-            if (verdict == TOUCHING) {
-                struct cage_touch made = {k, l, {x[0], x[1], x[2]}};
-                touch[(*count)++] = made;
-            }
-        }
-    }
+    for (int32_t i = c->t.dim + 1; i < c->t.sites; i++)
+        if (!cage_centre_off(c->t.dim, centre, &c->t.site[i]))
+            return false;
     return true;
 }
 
-static void add_balls(const struct cage_slice *slice, cage_ball *ball, int32_t *count)
+/* The label where the point is; *hint: a simplex near it, at first and then. */
+static int32_t label_at(const struct cage_slice *slice, const struct cage_centre *centre, int32_t *hint)
 {
-    for (int32_t i = slice->t.dim + 1; i < slice->t.sites; i++) {
-        const struct cage_site *site = &slice->t.site[i];
-        cage_ball made = {site->x, site->y, site->z, site->r};
-        ball[(*count)++] = made;
-    }
-}
-
-static void add_touch(struct cage_touch *touch, int32_t *count, int32_t k, int32_t l, const int64_t x[3])
-{
-    for (int32_t i = 0; i < *count; i++)
-        if (touch[i].k == k && touch[i].l == l)
-            return;
-    struct cage_touch made = {k, l, {(int32_t)x[0], (int32_t)x[1], (int32_t)x[2]}};
-    touch[(*count)++] = made;
-}
-
-static int32_t label_of(const struct cage_slice *slice, const struct cage_centre *centre)
-{
-    int32_t s = cage_delaunay_locate_centre(&slice->t, centre, 0);
+    int32_t s = cage_delaunay_locate_centre(&slice->t, centre, *hint);
+    *hint = s < 0 ? 0 : s;
     return s < 0 ? CAGE_OUTSIDE : slice->label[s];
 }
 
-static int32_t glue_by_mixture(struct glue *g, struct cage_touch **touch, int32_t *count)
+static bool has_touch(const struct group *group, int32_t side, int32_t k, int32_t l)
 {
-    int32_t dim = g->c->t.dim, balls = 0;
-    size_t mark = g->arena->used;
-    cage_ball *ball = cage_arena_take(g->arena, (size_t)(g->c->t.sites + g->d->t.sites), sizeof *ball);
-    if (!ball)
+    for (int32_t i = 0; i < group->count && i < group->room; i++)
+        if ((side ? group->touch[i].l : group->touch[i].k) == k && (side ? group->touch[i].k : group->touch[i].l) == l)
+            return true;
+    return false;
+}
+
+/* If the orthocentre of the free simplex s of t is in component k and in one of d, these touch. *hint: where to look in c and d. */
+static void add_witness(struct group *group, int32_t side, int32_t k, const struct cage_triangulation *t, int32_t s, int32_t hint[2])
+{
+    const struct cage_slice *c = group->slice[side], *d = group->slice[1 - side];
+    const struct cage_site *v[4];
+    struct cage_centre centre;
+    cage_simplex_sites(t, s, v);
+    cage_orthocentre(t->dim, v, &centre);
+    if (label_at(c, &centre, &hint[0]) != k)
+        return;
+    int32_t l = label_at(d, &centre, &hint[1]);
+    if (l == CAGE_COVERED || (k == CAGE_OUTSIDE && l == CAGE_OUTSIDE) || group->seen[1 - side][l] == 2 || has_touch(group, side, k, l) || !off_all(c, &centre) || !off_all(d, &centre))
+        return;
+    const int32_t base[3] = {centre.base->x, centre.base->y, centre.base->z};
+    int32_t x[3];
+    for (int32_t i = 0; i < 3; i++) /* one of the two is bounded: it lies between the balls */
+        x[i] = (int32_t)(base[i] + cage_i128_nearest(centre.offset[i], centre.denominator, (int64_t)1 << 30));
+    add_touch(group, side, k, l, x);
+}
+
+static bool is_new(const struct cage_triangulation *t, int32_t s, int32_t sites)
+{
+    bool fresh = false;
+    for (int32_t i = 0; i <= t->dim; i++)
+        fresh = fresh || t->simplex[s].v[i] >= sites;
+    return fresh;
+}
+
+enum { REST = 0, CANDIDATE = 1 };
+
+/* Try one of each set of new free simplices that are joined by facets which are no walls. */
+static int32_t add_new_parts(struct group *group, int32_t side, int32_t k, const struct cage_triangulation *t, int32_t hint[2])
+{
+    int32_t sites = group->slice[1 - side]->t.sites;
+    uint8_t *kind = cage_arena_take(group->arena, (size_t)t->simplices, sizeof *kind);
+    int32_t *stack = cage_arena_take(group->arena, (size_t)t->simplices, sizeof *stack);
+    if (!kind || !stack)
         return CAGE_ERROR_MEMORY;
-    add_balls(g->c, ball, &balls);
-    add_balls(g->d, ball, &balls);
-    struct cage_triangulation t;
-    struct cage_components mixture;
-    int32_t error = cage_delaunay(g->arena, dim, ball, balls, &t);
-    if (error == CAGE_OK)
-        error = cage_components(g->arena, &t, &mixture);
-    if (error == CAGE_OK) {
-        *touch = cage_arena_take(g->arena, (size_t)mixture.count, sizeof **touch);
-        error = *touch ? CAGE_OK : CAGE_ERROR_MEMORY;
-    }
-    if (error != CAGE_OK) {
-        cage_arena_release(g->arena, mark);
-        return error;
-    }
-    int64_t x[3];
-    for (int32_t i = 0; i < 3; i++)
-        x[i] = g->c->region[CAGE_OUTSIDE].point[i];
-    x[1] = g->d->region[CAGE_OUTSIDE].point[1] > x[1] ? g->d->region[CAGE_OUTSIDE].point[1] : x[1];
-    *count = 0;
-    add_touch(*touch, count, CAGE_OUTSIDE, CAGE_OUTSIDE, x);
-    for (int32_t m = 1; m < mixture.count; m++) {
-        const struct cage_site *v[4];
-        struct cage_centre centre;
-        cage_simplex_sites(&t, mixture.deep[m], v);
-        cage_orthocentre(dim, v, &centre);
-        int32_t k = label_of(g->c, &centre), l = label_of(g->d, &centre);
-        const int32_t base[3] = {centre.base->x, centre.base->y, centre.base->z};
-        for (int32_t i = 0; i < 3; i++) /* a bounded component lies between the balls */
-            x[i] = base[i] + cage_i128_nearest(centre.offset[i], centre.denominator, (int64_t)1 << 30);
-        if (k >= 0 && l >= 0)
-            add_touch(*touch, count, k, l, x);
+    for (int32_t s = 0; s < t->simplices; s++)
+        kind[s] = is_new(t, s, sites) && !cage_simplex_outer(t, s) && cage_component_free(t, s) ? CANDIDATE : REST;
+    for (int32_t first = 0; first < t->simplices; first++) {
+        int32_t depth = 0;
+        if (kind[first] == REST)
+            continue;
+        add_witness(group, side, k, t, first, hint);
+        kind[first] = REST;
+        stack[depth++] = first;
+        while (depth > 0) {
+            int32_t s = stack[--depth];
+            for (int32_t i = 0; i <= t->dim; i++) {
+                int32_t next = t->simplex[s].twin[i] >> 2; /* no hull facet: no sentinels */
+                if (kind[next] == REST || cage_component_wall(t, s, i))
+                    continue;
+                kind[next] = REST;
+                stack[depth++] = next;
+            }
+        }
     }
     return CAGE_OK;
 }
 
-int32_t cage_glue(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, struct cage_touch **touch,
-                  int32_t *count, int32_t *mixed)
+/* Add all touching pairs of component k. */
+static int32_t add_by_mixture(struct group *group, int32_t side, int32_t k)
+{
+    const struct cage_slice *c = group->slice[side], *d = group->slice[1 - side];
+    size_t mark = group->arena->used;
+    int32_t count, hint[2] = {0, 0};
+    const struct cage_site **vertex = vertices_of(group->arena, c, k, &count);
+    struct cage_triangulation t;
+    int32_t error = vertex ? cage_delaunay_extend(group->arena, &d->t, vertex, count, &t) : CAGE_ERROR_MEMORY;
+    for (int32_t l = 0; error == CAGE_OK && l < d->regions; l++)
+        if (d->region[l].deep >= 0)
+            add_witness(group, side, k, &d->t, d->region[l].deep, hint);
+    if (error == CAGE_OK)
+        error = add_new_parts(group, side, k, &t, hint);
+    if (error == CAGE_OK && k == CAGE_OUTSIDE && group->seen[1 - side][CAGE_OUTSIDE] != 2 && !has_touch(group, side, k, CAGE_OUTSIDE)) {
+        const int32_t *a = c->region[CAGE_OUTSIDE].point, *b = d->region[CAGE_OUTSIDE].point;
+        add_touch(group, side, k, CAGE_OUTSIDE, a[1] > b[1] ? a : b); /* above both bounding boxes */
+    }
+    cage_arena_release(group->arena, mark);
+    return error;
+}
+
+/* ---- all pairs of a group --------------------------------------------------------------------------- */
+
+/* Add all touching pairs of component k that can be decided without a mixture; false if not all can. */
+static bool add_by_proof(struct group *group, int32_t side, int32_t k)
+{
+    for (int32_t l = 0; l < group->slice[1 - side]->regions; l++) {
+        int32_t x[3];
+        if (group->seen[1 - side][l] == 2)
+            continue; /* decided from there */
+        int32_t verdict = cage_view_decide(&group->view[side], k, l, x);
+        if (verdict == CAGE_UNDECIDED)
+            return false;
+        if (verdict == CAGE_TOUCHING)
+            add_touch(group, side, k, l, x);
+    }
+    return true;
+}
+
+static int32_t glue_group(struct group *group, int32_t *mixed)
+{
+    for (int32_t n = 0; n < group->members; n++) {
+        int32_t side = group->member[n] < 0, k = side ? -1 - group->member[n] : group->member[n], count = group->count;
+        if (!add_by_proof(group, side, k)) {
+            group->count = count;
+            *mixed = 1;
+            int32_t error = add_by_mixture(group, side, k);
+            if (error != CAGE_OK)
+                return error;
+        }
+        group->seen[side][k] = 2;
+    }
+    return CAGE_OK;
+}
+
+static int32_t make_group(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, int32_t seed, int32_t room,
+                          struct group *group)
+{
+    memset(group, 0, sizeof *group);
+    group->arena = arena;
+    group->slice[0] = c;
+    group->slice[1] = d;
+    group->room = room;
+    group->touch = cage_arena_take(arena, (size_t)room, sizeof *group->touch);
+    group->member = cage_arena_take(arena, (size_t)c->regions + (size_t)d->regions, sizeof *group->member);
+    if (!group->touch || !group->member)
+        return CAGE_ERROR_MEMORY;
+    for (int32_t side = 0; side < 2; side++) {
+        const struct cage_slice *slice = group->slice[side];
+        group->seen[side] = cage_arena_take(arena, (size_t)slice->regions, sizeof *group->seen[side]);
+        if (!group->seen[side] || cage_view_make(arena, slice, group->slice[1 - side], &group->view[side]) != CAGE_OK)
+            return CAGE_ERROR_MEMORY;
+        memset(group->seen[side], 0, (size_t)slice->regions);
+    }
+    for (int32_t k = 0; k < c->regions; k++)
+        if (seed == k || seed == CAGE_ALL)
+            add_member(group, 0, k);
+    return CAGE_OK;
+}
+
+int32_t cage_glue(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, int32_t seed,
+                  struct cage_touch **touch, int32_t *count, int32_t *mixed)
 {
     size_t mark = arena->used;
-    struct glue g = {arena, c, d, NULL, NULL, NULL, NULL};
-    int32_t room = 4 * (c->regions + d->regions);
-    *touch = cage_arena_take(arena, (size_t)room, sizeof **touch);
-    size_t kept = arena->used;
-    g.shrink = cage_arena_take(arena, (size_t)c->parts, sizeof *g.shrink);
-    g.reached = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *g.reached);
-    g.stack = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *g.stack);
-    g.home = cage_arena_take(arena, (size_t)d->regions, sizeof *g.home);
-    if (!*touch || !g.shrink || !g.reached || !g.stack || !g.home) {
+    for (int32_t room = 2 * (c->regions + d->regions);; room *= 2) {
+        struct group group;
+        *mixed = 0;
+        int32_t error = make_group(arena, c, d, seed, room, &group);
+        if (error == CAGE_OK)
+            error = glue_group(&group, mixed);
         cage_arena_release(arena, mark);
-        return CAGE_ERROR_MEMORY;
-    }
-    for (int32_t a = 0; a < c->parts; a++) {
-        const int32_t moved[3] = {c->part[a].at[0] - d->part[a].at[0], c->part[a].at[1] - d->part[a].at[1],
-                                  c->part[a].at[2] - d->part[a].at[2]};
-        g.shrink[a] = d->part[a].change - c->part[a].change - cage_length(moved);
-    }
-    *count = 0;
-    *mixed = !glue_by_proof(&g, *touch, room, count);
-    if (!*mixed) {
-        cage_arena_release(arena, kept);
+        if (error != CAGE_OK)
+            return error;
+        if (group.count > room)
+            continue;
+        *touch = cage_arena_take(arena, (size_t)room, sizeof **touch); /* the same place */
+        *count = group.count;
         return CAGE_OK;
     }
-    cage_arena_release(arena, mark);
-    return glue_by_mixture(&g, touch, count);
 }

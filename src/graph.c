@@ -19,7 +19,9 @@ bool cage_graph_refine(struct cage_graph *graph, int32_t cell)
     if (graph->cells + graph->fibre->children > graph->capacity)
         return false;
     for (int32_t next = -1; (next = cage_graph_neighbour(graph, cell, next)) >= 0;)
-        graph->cell[next].facts[CAGE_INNER].settled = graph->cell[next].facts[CAGE_OUTER].settled = 0;
+        for (int32_t side = 0; side < CAGE_SIDES; side++)
+            for (int32_t k = 0; k < graph->cell[next].facts[side].nodes; k++)
+                graph->cell[next].facts[side].node[k].settled = 0;
     graph->cell[cell].child = graph->cells;
     for (int32_t i = 0; i < graph->fibre->children; i++) {
         struct cage_cell child;
@@ -86,10 +88,10 @@ int32_t cage_graph_neighbour(const struct cage_graph *graph, int32_t cell, int32
     return -1;
 }
 
-bool cage_graph_is_glued(const struct cage_graph *graph, int32_t side, int32_t a, int32_t b)
+bool cage_graph_is_glued(const struct cage_node *node, int32_t with)
 {
-    const struct cage_glued *glued = graph->cell[a].facts[side].glued;
-    while (glued && glued->with != b)
+    const struct cage_glued *glued = node->glued;
+    while (glued && glued->with != with)
         glued = glued->next;
     return glued != NULL;
 }
@@ -120,24 +122,49 @@ static void add_edge(struct cage_edge *edge, struct cage_node *from, struct cage
     from->edges = edge;
 }
 
-int32_t cage_graph_add_gluing(struct cage_graph *graph, int32_t side, int32_t a, int32_t b, const struct cage_touch *touch,
-                              int32_t count)
+/* Once for each node and cell. False when memory runs out. */
+static bool add_glued(struct cage_graph *graph, struct cage_node *node, int32_t with)
+{
+    if (cage_graph_is_glued(node, with))
+        return true;
+    struct cage_glued *glued = cage_arena_take(graph->arena, 1, sizeof *glued);
+    if (!glued)
+        return false;
+    glued->with = with;
+    glued->next = node->glued;
+    node->glued = glued;
+    return true;
+}
+
+static bool joined(const struct cage_node *k, const struct cage_node *l)
+{
+    const struct cage_edge *edge = k->edges;
+    while (edge && edge->to != l)
+        edge = edge->next;
+    return edge != NULL;
+}
+
+int32_t cage_graph_add_gluing(struct cage_graph *graph, int32_t side, int32_t a, int32_t b, int32_t seed,
+                              const struct cage_touch *touch, int32_t count)
 {
     struct cage_facts *at = &graph->cell[a].facts[side], *bt = &graph->cell[b].facts[side];
-    struct cage_edge *edge = cage_arena_take(graph->arena, 2 * (size_t)count, sizeof *edge);
-    struct cage_glued *glued = cage_arena_take(graph->arena, 2, sizeof *glued);
-    if (!edge || !glued)
-        return CAGE_ERROR_MEMORY;
-    for (int32_t i = 0; i < count; i++) {
+    bool done = true;
+    for (int32_t i = 0; i < count && done; i++) {
         struct cage_node *k = &at->node[touch[i].k], *l = &bt->node[touch[i].l];
-        add_edge(&edge[2 * i], k, l, touch[i].x);
-        add_edge(&edge[2 * i + 1], l, k, touch[i].x);
+        if (joined(k, l))
+            continue; /* one is an outside, and the other was glued before */
+        struct cage_edge *edge = cage_arena_take(graph->arena, 2, sizeof *edge);
+        if (!edge)
+            return CAGE_ERROR_MEMORY;
+        add_edge(&edge[0], k, l, touch[i].x);
+        add_edge(&edge[1], l, k, touch[i].x);
     }
-    glued[0].with = b;
-    glued[0].next = at->glued;
-    at->glued = &glued[0];
-    glued[1].with = a;
-    glued[1].next = bt->glued;
-    bt->glued = &glued[1];
-    return CAGE_OK;
+    for (int32_t i = 0; i < count && done && seed != CAGE_ALL; i++)
+        done = (touch[i].k == CAGE_OUTSIDE || add_glued(graph, &at->node[touch[i].k], b)) &&
+               (touch[i].l == CAGE_OUTSIDE || add_glued(graph, &bt->node[touch[i].l], a));
+    for (int32_t k = 0; k < at->nodes && done; k++)
+        done = (seed != CAGE_ALL && seed != k) || add_glued(graph, &at->node[k], b);
+    for (int32_t l = 0; l < bt->nodes && done && seed == CAGE_ALL; l++)
+        done = add_glued(graph, &bt->node[l], a);
+    return done ? CAGE_OK : CAGE_ERROR_MEMORY;
 }

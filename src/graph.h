@@ -20,7 +20,9 @@ struct cage_node {
     int32_t seen;   /* the search that reached it last */
     int32_t queued; /* in the queue now */
     int32_t inside; /* of an outer node: the inner component that holds it, CAGE_COVERED if that is not known */
+    int32_t settled; /* glued with all leaf neighbours of its cell (-1), or with those of this corridor */
     struct cage_edge *edges;
+    struct cage_glued *glued;
     struct cage_node *next;       /* in the queue */
     struct cage_node *next_open;  /* in the list of nodes whose cell is not glued all around */
     struct cage_node *from;       /* how it was reached */
@@ -34,7 +36,7 @@ struct cage_edge {
     int32_t banned; /* no search may use it */
 };
 
-/* The fact that a cell was glued with another. */
+/* The fact that all edges of a node to those over another cell are known. */
 struct cage_glued {
     struct cage_glued *next;
     int32_t with;
@@ -44,8 +46,6 @@ struct cage_glued {
 struct cage_facts {
     struct cage_node *node; /* one for each component */
     int32_t nodes;
-    struct cage_glued *glued;
-    int32_t settled; /* glued with all leaf neighbours (-1), or with those of this corridor */
     struct cage_held *held;
 };
 
@@ -78,13 +78,13 @@ bool cage_graph_refine(struct cage_graph *graph, int32_t cell);
  * more. Start and goal are not neighbours of each other. */
 int32_t cage_graph_neighbour(const struct cage_graph *graph, int32_t cell, int32_t after);
 
-bool cage_graph_is_glued(const struct cage_graph *graph, int32_t side, int32_t a, int32_t b);
+bool cage_graph_is_glued(const struct cage_node *node, int32_t with);
 
 /* Record a slice of so many components. */
 int32_t cage_graph_add_nodes(struct cage_graph *graph, int32_t side, int32_t cell, int32_t components);
 
-/* Record a gluing. */
-int32_t cage_graph_add_gluing(struct cage_graph *graph, int32_t side, int32_t a, int32_t b, const struct cage_touch *touch,
-                              int32_t count);
+/* Record what gluing component `seed` of cell a (or CAGE_ALL) with cell b has found. */
+int32_t cage_graph_add_gluing(struct cage_graph *graph, int32_t side, int32_t a, int32_t b, int32_t seed,
+                              const struct cage_touch *touch, int32_t count);
 
 #endif

@@ -73,6 +73,52 @@ int32_t cage_displacement(int64_t turn, int32_t reach)
     return (int32_t)((turn * reach + ((int64_t)1 << TURN_BITS) - 1) >> TURN_BITS);
 }
 
+void cage_corners_of(const int32_t q[4], int32_t corner[8][4], struct cage_corners *out)
+{
+    const int64_t a = q[0], b = q[1], c = q[2], d = q[3];
+    for (int32_t i = 0; i < 8; i++) {
+        const int64_t w = corner[i][0], x = corner[i][1], y = corner[i][2], z = corner[i][3];
+        int64_t p[4] = {a * w + b * x + c * y + d * z, a * x - w * b - (c * z - d * y), /* < 2^50 */
+                        a * y - w * c - (d * x - b * z), a * z - w * d - (b * y - c * x)};
+        int64_t largest = 1;
+        for (int32_t k = 0; k < 4; k++)
+            largest = p[k] > largest ? p[k] : -p[k] > largest ? -p[k] : largest;
+        /* Largest entry to 2^30..2^31; then real part >= 2^29, as the angle is at most 60 degrees. Entries are off by less than 1, so u by less
+         * than (1 + |u|) 2^-29 and the division's 2^-30. */
+        uint32_t bits = cage_u64_bits((uint64_t)largest);
+        for (int32_t k = 0; k < 4; k++)
+            p[k] = bits <= 31 ? p[k] * ((int64_t)1 << (31 - bits)) : p[k] / ((int64_t)1 << (bits - 31));
+        for (int32_t k = 0; k < 3; k++)
+            out->u[i][k] = p[k + 1] * ((int64_t)1 << 30) / p[0];
+    }
+}
+
+int32_t cage_displacement_within(const struct cage_corners *corners, const int32_t y[3])
+{
+    cage_i128 most = cage_i128_of(0);
+    for (int32_t i = 0; i < 8; i++) {
+        const int64_t *u = corners->u[i];
+        cage_i128 square = cage_i128_of(0); /* |u x y|^2 < 3 2^106 */
+        for (int32_t k = 0; k < 3; k++) {
+            int64_t minor = u[(k + 1) % 3] * y[(k + 2) % 3] - u[(k + 2) % 3] * y[(k + 1) % 3];
+            square = cage_i128_add(square, cage_i128_mul(minor, minor));
+        }
+        most = cage_i128_compare(square, most) > 0 ? square : most;
+    }
+    /* 2 A |y| / sqrt(A^2 + |y|^2), A the largest |u x y|. u is off by less than 2^-27, so the result by less than 2 2^21 2^-27, far
+     * below 1. A and |y| are rounded up, the root and the quotient down. */
+    int64_t length = 0;
+    for (int32_t k = 0; k < 3; k++)
+        length += (int64_t)y[k] * y[k];
+    cage_i128 sum = cage_i128_add(most, cage_i128_shl(cage_i128_of(length), 60)), rest;
+    int64_t root = (int64_t)cage_u128_root(sum); /* < 2^55 */
+    if (root == 0)
+        return 0;
+    int64_t arm = (int64_t)cage_u128_root(most) + 1, reach = cage_length(y);
+    cage_i128 moved = cage_u128_divide(cage_i128_mul(2 * arm, reach), cage_i128_of(root), &rest);
+    return (int32_t)cage_i128_low(moved) + 2;
+}
+
 int32_t cage_length(const int32_t v[3])
 {
     int64_t square = 0; /* <= 3 2^58 */

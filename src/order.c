@@ -7,7 +7,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { ROUND_BITS = 3, CURVE_BITS = 29 };
+/* The curve tells apart about 2^(2 dim) times as many places as there are balls. */
+enum { ROUND_BITS = 3, CURVE_BITS = 29, FINER = 2 };
 
 /* The round a ball falls in, drawn by a hash of the index: each round has an eighth of the balls of the next. */
 static uint32_t round_of(uint32_t index)
@@ -49,10 +50,11 @@ static uint32_t curve_position(uint32_t x[3], int32_t dim, uint32_t bits)
     return position;
 }
 
-/* Stable radix sort of order by key; key and order are both permuted. */
-static void sort(uint32_t *key, int32_t *order, uint32_t *other_key, int32_t *other_order, int32_t count)
+/* Stable radix sort of order by key, of which only the low bits are used; key and order are both permuted. */
+static void sort(uint32_t *key, int32_t *order, uint32_t *other_key, int32_t *other_order, int32_t count, uint32_t bits)
 {
-    for (uint32_t shift = 0; shift < 32; shift += 8) {
+    uint32_t shift = 0;
+    for (; shift < bits; shift += 8) {
         int32_t first[256] = {0};
         for (int32_t i = 0; i < count; i++)
             first[(key[i] >> shift) & 255]++;
@@ -73,6 +75,8 @@ static void sort(uint32_t *key, int32_t *order, uint32_t *other_key, int32_t *ot
         order = other_order;
         other_order = swap_order;
     }
+    if (shift & 8)
+        memcpy(other_order, order, (size_t)count * sizeof *order);
 }
 
 int32_t cage_order(struct cage_arena *arena, int32_t dim, const cage_ball *ball, int32_t count, int32_t *order)
@@ -92,7 +96,10 @@ int32_t cage_order(struct cage_arena *arena, int32_t dim, const cage_ball *ball,
             high[k] = at[k] > high[k] ? at[k] : high[k];
         }
     }
-    uint32_t bits = CURVE_BITS / (uint32_t)dim, shift = 0, extent = 0;
+    uint32_t bits = FINER, shift = 0, extent = 0;
+    while (bits < CURVE_BITS / (uint32_t)dim && count >> (bits - FINER) * (uint32_t)dim > 0)
+        bits++;
+    uint32_t length = bits * (uint32_t)dim;
     for (int32_t k = 0; count > 0 && k < dim; k++)
         extent |= (uint32_t)high[k] - (uint32_t)low[k];
     while (extent >> shift >> bits)
@@ -102,10 +109,10 @@ int32_t cage_order(struct cage_arena *arena, int32_t dim, const cage_ball *ball,
         uint32_t x[3] = {0, 0, 0};
         for (int32_t k = 0; k < dim; k++)
             x[k] = ((uint32_t)at[k] - (uint32_t)low[k]) >> shift;
-        key[i] = round_of((uint32_t)i) << CURVE_BITS | curve_position(x, dim, bits);
+        key[i] = round_of((uint32_t)i) << length | curve_position(x, dim, bits);
         order[i] = i;
     }
-    sort(key, order, key + count, other, count);
+    sort(key, order, key + count, other, count, length + ROUND_BITS);
     cage_arena_release(arena, mark);
     return CAGE_OK;
 }

@@ -90,6 +90,34 @@ int32_t cage_centre_power(const struct cage_centre *centre)
     return cage_norm_compare(centre->offset, cage_i128_scale(centre->denominator, centre->base->r));
 }
 
+static int64_t top(cage_i128 a, uint32_t drop)
+{
+    int64_t size = (int64_t)cage_i128_low(cage_i128_shr(cage_i128_abs(a), drop));
+    return cage_i128_negative(a) ? -size : size;
+}
+
+/* The sign of denominator * triple + sum of offset_k * normal_k from the top bits of denominator and offset, 0 if these do not tell:
+ * with so many bits dropped that those left are < 2^62 and products < 2^125, each term is off by less than |triple| or |normal_k|. */
+static int32_t side_by_top_bits(const struct cage_centre *centre, const int64_t normal[3], cage_i128 triple)
+{
+    cage_i128 most = centre->denominator, size = cage_i128_abs(triple);
+    for (int32_t k = 0; k < 3; k++) {
+        cage_i128 one = cage_i128_abs(centre->offset[k]);
+        most = cage_i128_compare(one, most) > 0 ? one : most;
+    }
+    uint32_t bits = cage_u128_bits(most), of_triple = cage_u128_bits(size) + cage_u128_bits(centre->denominator);
+    uint32_t drop = bits > 62 ? bits - 62 : 0;
+    drop = of_triple > 125 + drop ? of_triple - 125 : drop;
+    cage_i128 sum = cage_i128_scale(triple, top(centre->denominator, drop)), error = size;
+    for (int32_t k = 0; k < 3; k++) { /* |normal| < 2^53 */
+        sum = cage_i128_add(sum, cage_i128_mul(normal[k], top(centre->offset[k], drop)));
+        error = cage_i128_add(error, cage_i128_of(normal[k] < 0 ? -normal[k] : normal[k]));
+    }
+    if (cage_i128_compare(cage_i128_abs(sum), error) <= 0)
+        return 0;
+    return cage_i128_sign(sum);
+}
+
 int32_t cage_centre_side(int32_t dim, const struct cage_site *const face[3], const struct cage_centre *centre)
 {
     int64_t b[3], c[3] = {0, 0, 1}, to_base[3], normal[3];
@@ -104,7 +132,11 @@ int32_t cage_centre_side(int32_t dim, const struct cage_site *const face[3], con
         return cage_i128_sign(cage_i128_sub(sum, cage_i128_scale(centre->offset[0], b[1])));
     }
     cross(b, c, normal);
-    cage_i256 sum = cage_i256_mul(centre->denominator, cage_triple(to_base, b, c));
+    cage_i128 triple = cage_triple(to_base, b, c);
+    int32_t sign = side_by_top_bits(centre, normal, triple);
+    if (sign != 0)
+        return sign;
+    cage_i256 sum = cage_i256_mul(centre->denominator, triple);
     for (int32_t k = 0; k < 3; k++)
         sum = cage_i256_add(sum, cage_i256_mul(centre->offset[k], cage_i128_of(normal[k])));
     return cage_i256_sign(sum);
@@ -129,6 +161,27 @@ static void triangle_centre(const struct cage_site *const facet[3], struct trian
     t->gram = cage_i128_sub(cage_i128_mul(uu, vv), cage_i128_mul(uv, uv));
 }
 
+/* The sign of the sum of big_k * little_k, |little| < 2^54: from the top 62 bits of the big ones, each term then off by less than
+ * |little_k|, and if these do not tell, from all. */
+static int32_t mixed_sign(const cage_i128 big[3], const int64_t little[3])
+{
+    cage_i128 all = cage_i128_of(0), sum = all, error = all;
+    for (int32_t k = 0; k < 3; k++) {
+        cage_i128 size = cage_i128_abs(big[k]);
+        all = cage_i128_make(cage_i128_high(all) | cage_i128_high(size), cage_i128_low(all) | cage_i128_low(size));
+    }
+    uint32_t bits = cage_u128_bits(all), drop = bits > 62 ? bits - 62 : 0;
+    for (int32_t k = 0; k < 3; k++) {
+        sum = cage_i128_add(sum, cage_i128_mul(little[k], top(big[k], drop)));
+        error = cage_i128_add(error, cage_i128_of(little[k] < 0 ? -little[k] : little[k]));
+    }
+    if (cage_i128_compare(cage_i128_abs(sum), error) > 0)
+        return cage_i128_sign(sum);
+    cage_i256 exact = cage_i256_mul(big[0], cage_i128_of(little[0]));
+    exact = cage_i256_add(exact, cage_i256_mul(big[1], cage_i128_of(little[1])));
+    return cage_i256_sign(cage_i256_add(exact, cage_i256_mul(big[2], cage_i128_of(little[2]))));
+}
+
 /* For an edge of length L: p <= 0 iff |r_0 - r_1| <= L <= r_0 + r_1. Squares <= 8 M^2 = 2^61. For a
  * triangle: 4 gram p = a alpha + b beta - 4 gram r_0^2, < 2^159. */
 int32_t cage_facet_power(int32_t dim, const struct cage_site *const facet[3])
@@ -143,10 +196,9 @@ int32_t cage_facet_power(int32_t dim, const struct cage_site *const facet[3])
     }
     struct triangle t;
     triangle_centre(facet, &t);
-    cage_i256 power = cage_i256_mul(t.alpha, cage_i128_of(t.a));
-    power = cage_i256_add(power, cage_i256_mul(t.beta, cage_i128_of(t.b)));
-    cage_i128 square = cage_i128_of(4 * (int64_t)facet[0]->r * facet[0]->r); /* <= 4 M^2 */
-    return cage_i256_sign(cage_i256_sub(power, cage_i256_mul(t.gram, square)));
+    const cage_i128 big[3] = {t.alpha, t.beta, t.gram};
+    const int64_t little[3] = {t.a, t.b, -4 * (int64_t)facet[0]->r * facet[0]->r}; /* <= 4 M^2 */
+    return mixed_sign(big, little);
 }
 
 /* |w - o|^2 - r_w^2 - p < 0. With s = w - z_0, c = s.s - r_w^2 + r_0^2: for an edge c u.u - a (s.u) < 0, <= 144 M^4;
@@ -164,20 +216,103 @@ bool cage_facet_attached(int32_t dim, const struct cage_site *const facet[3], co
     }
     struct triangle t;
     triangle_centre(facet, &t);
-    cage_i256 value = cage_i256_mul(t.gram, cage_i128_of(c));
-    value = cage_i256_sub(value, cage_i256_mul(t.alpha, cage_i128_of(dot(s, t.u))));
-    return cage_i256_sign(cage_i256_sub(value, cage_i256_mul(t.beta, cage_i128_of(dot(s, t.v))))) < 0;
+    const cage_i128 big[3] = {t.gram, t.alpha, t.beta};
+    const int64_t little[3] = {c, -dot(s, t.u), -dot(s, t.v)};
+    return mixed_sign(big, little) < 0;
 }
 
-/* By the simplex lemma (weigh the powers by barycentric coordinates) p <= 0 suffices; in the plane an edge is covered
- * by its two discs exactly when L <= r_0 + r_1. */
-bool cage_facet_covered(int32_t dim, const struct cage_site *const facet[3])
+bool cage_centre_off(int32_t dim, const struct cage_centre *centre, const struct cage_site *ball)
 {
-    if (dim == 2) {
-        int64_t u[3];
-        cage_difference(facet[1], facet[0], u);
-        int64_t sum = (int64_t)facet[0]->r + facet[1]->r;
-        return dot(u, u) <= sum * sum;
+    int64_t apart[3];
+    cage_i128 n[3] = {cage_i128_of(0), cage_i128_of(0), cage_i128_of(0)};
+    cage_difference(ball, centre->base, apart);
+    for (int32_t k = 0; k < dim; k++)
+        n[k] = cage_i128_sub(centre->offset[k], cage_i128_scale(centre->denominator, apart[k]));
+    return cage_norm_compare(n, cage_i128_scale(centre->denominator, ball->r)) > 0;
+}
+
+/* Divide all entries (negative ones at least -most) by a power of two, rounding down, so that they are at most 2^bits in magnitude. */
+static void round_down(int32_t rows, int64_t *a, int64_t most, uint32_t bits)
+{
+    for (int32_t i = 0; i < rows * rows; i++)
+        most = a[i] > most ? a[i] : most;
+    uint32_t used = cage_u64_bits((uint64_t)most), drop = used >= bits ? used - bits + 1 : 0;
+    for (int32_t i = 0; i < rows * rows; i++)
+        a[i] = a[i] >= 0 ? a[i] >> drop : -(((-a[i] - 1) >> drop) + 1);
+}
+
+/* At the point with barycentric coordinates l the powers, weighed by l, add up to sum_{i<j} l_i l_j square_ij - sum_i l_i weight_i: if that
+ * is nowhere positive, one of them never is. Times 2, and homogeneous since the l add up to 1: the quadratic form of the matrix
+ * a_ii = 2 weight_i, a_ij = weight_i + weight_j - square_ij has to be copositive. (For two balls:
+ * square_01 <= (r_0 + r_1)^2.) For three rows, whose 2 x 2 parts are copositive: iff the determinant is not negative or an entry
+ * of the adjugate is (K. P. Hadeler, "On copositive matrices", Linear Algebra Appl. 49, 1983). */
+bool cage_edges_covered(int32_t count, const int64_t square[3], const int64_t weight[3])
+{
+    int64_t a[3][3], most = 0; /* < 2^63 */
+    bool plain = true;
+    for (int32_t i = 0; i < count; i++) {
+        if (weight[i] < 0)
+            return false;
+        a[i][i] = 2 * weight[i];
+        most = a[i][i] > most ? a[i][i] : most;
+        for (int32_t k = 0; k < i; k++) {
+            a[i][k] = a[k][i] = weight[i] + weight[k] - square[count == 2 ? 0 : 3 - i - k];
+            plain = plain && a[i][k] >= 0;
+            most = -a[i][k] > most ? -a[i][k] : most;
+        }
     }
-    return cage_facet_power(dim, facet) <= 0;
+    if (plain)
+        return true;
+    for (int32_t i = 0; i < count; i++)
+        for (int32_t k = 0; k < i; k++)
+            if (a[i][k] < 0 && cage_i128_compare(cage_i128_mul(a[i][k], a[i][k]), cage_i128_mul(a[i][i], a[k][k])) > 0)
+                return false;
+    if (count == 2)
+        return true;
+    round_down(3, &a[0][0], most, 41); /* minors < 2^83, the determinant < 6 2^123; the 2 x 2 parts may fail by the rounding: */
+    cage_i128 det = cage_i128_of(0);
+    bool negative = false;
+    for (int32_t i = 0; i < 3; i++)
+        for (int32_t k = 0; k < 3; k++) {
+            int32_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+            cage_i128 adjugate = cage_i128_sub(cage_i128_mul(a[i1][k1], a[i2][k2]), cage_i128_mul(a[i1][k2], a[i2][k1]));
+            if (i == k && cage_i128_negative(adjugate) && a[i1][i2] < 0)
+                return false;
+            negative = negative || cage_i128_negative(adjugate);
+            if (i == 0)
+                det = cage_i128_add(det, cage_i128_scale(adjugate, a[0][k]));
+        }
+    return negative || !cage_i128_negative(det);
+}
+
+/* As above with four rows. Entries are rounded down to 28 bits; if what is left is positive semidefinite (leading minors), the matrix itself, larger
+ * in every entry, is copositive. Minors of two rows < 2^57, of three < 2^87, the determinant < 6 2^114. */
+bool cage_tetrahedron_covered(int64_t square[4][4], const int64_t weight[4])
+{
+    int64_t a[4][4], most = 0;
+    for (int32_t i = 0; i < 4; i++) {
+        if (weight[i] <= 0)
+            return false;
+        a[i][i] = 2 * weight[i];
+        most = a[i][i] > most ? a[i][i] : most;
+        for (int32_t k = 0; k < i; k++) {
+            a[i][k] = weight[i] + weight[k] - square[i][k];
+            most = a[i][k] > most ? a[i][k] : -a[i][k] > most ? -a[i][k] : most;
+        }
+    }
+    for (int32_t i = 0; i < 4; i++)
+        for (int32_t k = 0; k < i; k++)
+            a[k][i] = a[i][k];
+    round_down(4, &a[0][0], most, 28);
+    int64_t upper[4][4], lower[4][4]; /* minors of rows 0, 1 and of rows 2, 3, by their columns */
+    for (int32_t i = 0; i < 4; i++)
+        for (int32_t k = i + 1; k < 4; k++) {
+            upper[i][k] = a[0][i] * a[1][k] - a[0][k] * a[1][i];
+            lower[i][k] = a[2][i] * a[3][k] - a[2][k] * a[3][i];
+        }
+    if (a[0][0] <= 0 || upper[0][1] <= 0 || cage_i128_sign(cage_mix(upper[1][2], a[2][0], upper[0][2], a[2][1], upper[0][1], a[2][2])) <= 0)
+        return false;
+    cage_i128 det = cage_mix(upper[0][1], lower[2][3], upper[0][2], lower[1][3], upper[0][3], lower[1][2]);
+    det = cage_i128_add(det, cage_mix(upper[1][2], lower[0][3], upper[1][3], lower[0][2], upper[2][3], lower[0][1]));
+    return !cage_i128_negative(det);
 }

@@ -101,10 +101,24 @@ static int32_t step_inner(struct cage_proof *proof)
     return CAGE_OK;
 }
 
+/* Start or goal is too close to an obstacle to begin at, and no free leg was found to a better place. */
+static bool outer_is_lost(const struct cage_proof *proof)
+{
+    bool lost = false;
+    for (int32_t end = CAGE_CELL_START; end <= (proof->graph.goal ? CAGE_CELL_GOAL : CAGE_CELL_START); end++)
+        lost = lost || (proof->graph.cell[end].facts[CAGE_OUTER].nodes > 0 && proof->label[CAGE_OUTER][end] == CAGE_COVERED);
+    return lost;
+}
+
 static int32_t step_outer(struct cage_proof *proof)
 {
     struct cage_node *way = proof->way;
     int32_t done = cage_search(proof, CAGE_OUTER);
+    if (done == CAGE_CLOSED && outer_is_lost(proof)) {
+        if (!(proof->limits.side & CAGE_SIDE_INNER) || proof->hopeless)
+            return finish(proof, CAGE_UNDEFINED, CAGE_REASON_LEVEL);
+        proof->limits.side = CAGE_SIDE_INNER; /* from now on */
+    }
     if (done == CAGE_FOUND) {
         cage_path_begin(proof);
         proof->phase = PATH;
@@ -156,19 +170,27 @@ static int32_t step(struct cage_proof *proof)
 
 void cage_limits_default(cage_limits *limits, int32_t dim)
 {
-    (void)dim;
+    if (!limits)
+        return;
     limits->side = CAGE_SIDE_BOTH;
     limits->start_level = -1;
-    limits->max_level = 12;
-    limits->max_cells = 16384;
+    limits->max_level = dim == 2 ? 12 : 8;
+    limits->max_cells = dim == 2 ? 16384 : 131072;
 }
 
-static int32_t limits_check(const cage_limits *limits)
+static int32_t limits_check(const cage_limits *limits, int32_t dim)
 {
     if (limits->side < CAGE_SIDE_INNER || limits->side > CAGE_SIDE_BOTH || limits->max_cells < 2 ||
         limits->max_cells > 1 << 24)
         return CAGE_ERROR_ARGUMENT;
-    if (limits->max_level < 0 || limits->max_level > CAGE_LEVEL_MAX_2D)
+    int64_t of_level = dim == 2 ? 2 : 4, cells = of_level; /* all cells down to the start level, or more than allowed */
+    for (int32_t level = 0; level < limits->start_level && cells <= limits->max_cells; level++) {
+        of_level *= dim == 2 ? 2 : 8;
+        cells += of_level;
+    }
+    if (cells > limits->max_cells)
+        return CAGE_ERROR_ARGUMENT;
+    if (limits->max_level < 0 || limits->max_level > (dim == 2 ? CAGE_LEVEL_MAX_2D : CAGE_LEVEL_MAX_3D))
         return CAGE_ERROR_ARGUMENT;
     return limits->start_level < -1 || limits->start_level > limits->max_level ? CAGE_ERROR_ARGUMENT : CAGE_OK;
 }
@@ -196,8 +218,13 @@ static int32_t first_level(const struct cage_proof *proof)
         proof->graph.fibre->child(&cell, 0, &cell);
         level++;
     }
-    while (level > 0 && ((int64_t)proof->graph.fibre->roots << (level + 1)) > proof->graph.capacity)
-        level--;
+    /* All cells down to that level: roots (1 + c + ... + c^level) < 2 roots c^level. */
+    int64_t cells = 2 * proof->graph.fibre->roots;
+    for (int32_t i = 0; i < level; i++) {
+        cells *= proof->graph.fibre->children;
+        if (cells > proof->graph.capacity)
+            return i;
+    }
     return level;
 }
 
@@ -211,29 +238,30 @@ static void share_out(struct cage_proof *proof)
     cage_arena_init(&proof->scratch, at + quarter, left - 2 * quarter);
 }
 
-static size_t fixed_bytes(const cage_scene *scene, const cage_limits *limits)
+static uint64_t fixed_bytes(const cage_scene *scene, const cage_limits *limits)
 {
-    size_t objects = (size_t)scene->object.inner_count + (size_t)scene->object.outer_count;
+    uint64_t objects = (uint64_t)scene->object.inner_count + (uint64_t)scene->object.outer_count;
     return sizeof(struct cage_proof) + objects * (sizeof(cage_ball) + sizeof(int32_t)) +
-           ((size_t)limits->max_cells + CAGE_CELL_ROOT) * sizeof(struct cage_leaf) + 16 * CAGE_ALIGN;
+           ((uint64_t)limits->max_cells + CAGE_CELL_ROOT) * sizeof(struct cage_leaf) + 16 * CAGE_ALIGN;
 }
 
 size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits)
 {
     cage_limits defaults;
-    if (cage_scene_check(scene) != CAGE_OK || scene->dim != 2)
+    if (cage_scene_check(scene) != CAGE_OK)
         return 0;
     if (!limits) {
         cage_limits_default(&defaults, scene->dim);
         limits = &defaults;
     }
-    if (limits_check(limits) != CAGE_OK)
+    if (limits_check(limits, scene->dim) != CAGE_OK)
         return 0;
-    size_t inner = (size_t)scene->object.inner_count * (size_t)scene->obstacles.inner_count;
-    size_t outer = (size_t)scene->object.outer_count * (size_t)scene->obstacles.outer_count, pairs = inner > outer ? inner : outer;
-    /* A mixture of two slices: 2 pairs balls, at most 4 triangles each while building. */
-    size_t work = 600 * pairs + 32768, facts = 32768 + 64 * (size_t)limits->max_cells;
-    return fixed_bytes(scene, limits) + 4 * (work / 2 > facts ? work / 2 : facts);
+    uint64_t inner = (uint64_t)scene->object.inner_count * (uint64_t)scene->obstacles.inner_count;
+    uint64_t outer = (uint64_t)scene->object.outer_count * (uint64_t)scene->obstacles.outer_count, pairs = inner > outer ? inner : outer;
+    /* A mixture of two slices: 2 pairs balls, at most 4 triangles each while building; in space usually less than 9 tetrahedra. */
+    uint64_t work = (scene->dim == 2 ? 600 : 1400) * pairs + 32768, facts = 32768 + 64 * (uint64_t)limits->max_cells;
+    uint64_t all = fixed_bytes(scene, limits) + 4 * (work / 2 > facts ? work / 2 : facts); /* < 2^42 */
+    return all > SIZE_MAX ? SIZE_MAX : (size_t)all;
 }
 
 /* A block that lets the step that failed for want of memory succeed. */
@@ -271,16 +299,17 @@ static int32_t begin(struct cage_proof *proof, const cage_pose *start, const cag
         if (error != CAGE_OK)
             return error;
     }
-    proof->graph.fibre = &cage_so2;
+    proof->graph.fibre = proof->scene.dim == 2 ? &cage_so2 : &cage_so3;
     proof->graph.arena = &proof->arena;
     proof->graph.capacity = proof->limits.max_cells + CAGE_CELL_ROOT;
     proof->graph.cell = cage_arena_take(&proof->arena, (size_t)proof->graph.capacity, sizeof *proof->graph.cell);
     if (!proof->graph.cell)
         return CAGE_ERROR_MEMORY;
     set_ends(proof, start, goal);
+    int32_t reach = scene->dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
     for (int32_t end = 0; end < CAGE_CELL_ROOT; end++)
         for (int32_t k = 0; k < 3; k++)
-            if (proof->at[end][k] < -CAGE_REACH_2D || proof->at[end][k] > CAGE_REACH_2D)
+            if (proof->at[end][k] < -reach || proof->at[end][k] > reach)
                 return CAGE_ERROR_RANGE;
     int32_t level = proof->limits.start_level < 0 ? first_level(proof) : proof->limits.start_level;
     if (!cage_graph_init(&proof->graph, level))
@@ -306,12 +335,10 @@ int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage
         error = cage_pose_check(scene->dim, start);
     if (error == CAGE_OK && goal)
         error = cage_pose_check(scene->dim, goal);
-    if (error == CAGE_OK && scene->dim != 2)
-        error = CAGE_ERROR_DIMENSION;
     cage_limits defaults;
     cage_limits_default(&defaults, scene->dim);
     if (error == CAGE_OK)
-        error = limits_check(limits ? limits : &defaults);
+        error = limits_check(limits ? limits : &defaults, scene->dim);
     if (error != CAGE_OK)
         return error;
     struct cage_arena arena;
@@ -350,5 +377,5 @@ int32_t cage_prove_run(cage_proof *proof, int64_t steps)
 
 const cage_result *cage_prove_result(const cage_proof *proof)
 {
-    return &proof->result;
+    return proof ? &proof->result : NULL;
 }

@@ -28,8 +28,8 @@ static void lay(int32_t dim, const cage_ball *ball, int32_t count, struct cage_r
         raster->origin[k] = k < dim ? low[k] - MARGIN * ((int32_t)1 << raster->shift) : 0;
         raster->size[k] = k < dim ? ((high[k] - low[k]) >> raster->shift) + 1 + 2 * MARGIN : 1;
     }
-    raster->row = (raster->size[0] + 63) / 64;
-    raster->block_row = (raster->row + 7) / 8;
+    raster->row = (raster->size[0] + 63) / 64 + 1;
+    raster->block_row = (raster->row + 7) / 8 + 1;
     raster->block_rows = (raster->size[1] + 7) / 8;
 }
 
@@ -45,23 +45,47 @@ static void pixel_of(const struct cage_raster *raster, const cage_ball *ball, in
     at[2] = (ball->z - raster->origin[2]) >> raster->shift;
 }
 
-static void set(uint64_t *row, int32_t first, int32_t last)
+/* The pixels first..last of a row: whole words but for the first and the last, masked; a span of up to 64 pixels has no whole
+ * words and two masks, the last of which may be 0 (rows have a word to spare). */
+struct span {
+    int32_t word, words;
+    uint64_t first, last;
+};
+
+static CAGE_INLINE struct span span_of(int32_t first, int32_t last)
 {
-    int32_t w = first >> 6, end = last >> 6;
-    uint64_t mask = UINT64_MAX << (first & 63), last_mask = UINT64_MAX >> (63 - (last & 63));
-    for (; w < end; w++, mask = UINT64_MAX)
-        row[w] |= mask;
-    row[w] |= mask & last_mask;
+    int32_t word = first >> 6, end = last >> 6;
+    struct span s = {word, 1, UINT64_MAX << (first & 63), UINT64_MAX >> (63 - (last & 63))};
+    if (word == end) {
+        s.first &= s.last;
+        s.last = 0;
+    } else {
+        s.words = end - word;
+    }
+    return s;
 }
 
-static bool all_set(const uint64_t *row, int32_t first, int32_t last)
+/* In two rows at once: discs are symmetric. */
+static CAGE_INLINE void set(uint64_t *a, uint64_t *b, struct span s)
 {
-    int32_t w = first >> 6, end = last >> 6;
-    uint64_t mask = UINT64_MAX << (first & 63), last_mask = UINT64_MAX >> (63 - (last & 63));
-    for (; w < end; w++, mask = UINT64_MAX)
-        if (~row[w] & mask)
-            return false;
-    return !(~row[w] & mask & last_mask);
+    a += s.word;
+    b += s.word;
+    a[0] |= s.first;
+    b[0] |= s.first;
+    for (int32_t w = 1; w < s.words; w++)
+        a[w] = b[w] = UINT64_MAX;
+    a[s.words] |= s.last;
+    b[s.words] |= s.last;
+}
+
+static CAGE_INLINE bool all_set(const uint64_t *a, const uint64_t *b, struct span s)
+{
+    a += s.word;
+    b += s.word;
+    uint64_t missing = (~(a[0] & b[0]) & s.first) | (~(a[s.words] & b[s.words]) & s.last);
+    for (int32_t w = 1; w < s.words; w++)
+        missing |= ~(a[w] & b[w]);
+    return missing == 0;
 }
 
 /* Sum up which blocks are covered. */
@@ -87,11 +111,14 @@ static bool blocks_cover(const struct cage_raster *raster, int32_t dim, const ca
 {
     int32_t at[3], gap = (ball->r >> raster->shift) + 2, deep = dim == 3 ? gap : 0;
     pixel_of(raster, ball, at);
-    for (int32_t z = at[2] - deep; z <= at[2] + deep; z++)
-        for (int32_t b = (at[1] - gap) >> 3; b <= (at[1] + gap) >> 3; b++)
-            if (!all_set(raster->blocks + ((size_t)z * (size_t)raster->block_rows + (size_t)b) * (size_t)raster->block_row,
-                         (at[0] - gap) >> 3, (at[0] + gap) >> 3))
+    struct span span = span_of((at[0] - gap) >> 3, (at[0] + gap) >> 3);
+    int32_t first = (at[1] - gap) >> 3, rows = ((at[1] + gap) >> 3) - first + 1;
+    for (int32_t z = at[2] - deep; z <= at[2] + deep; z++) {
+        const uint64_t *row = raster->blocks + ((size_t)z * (size_t)raster->block_rows + (size_t)first) * (size_t)raster->block_row;
+        for (int32_t b = 0; b < rows; b++, row += raster->block_row)
+            if (!all_set(row, row, span))
                 return false;
+    }
     return true;
 }
 
@@ -131,13 +158,24 @@ static void mark(struct cage_raster *raster, int32_t dim, const cage_ball *ball,
         if (left < 2)
             return;
         cut(stamp, left);
-        for (int32_t z = at[2] - k; z <= at[2] + k; z += k ? 2 * k : 1)
-            for (int32_t j = 1; j < stamp->rows && stamp->width[j] > 0; j++) {
+        for (int32_t z = at[2] - k; z <= at[2] + k; z += k ? 2 * k : 1) {
+            uint64_t *up = row_of(raster, at[1], z), *down = up;
+            for (int32_t j = 1; j < stamp->rows && stamp->width[j] > 0; j++, up -= raster->row, down += raster->row) {
                 int32_t half = stamp->width[j] - 1;
-                set(row_of(raster, at[1] - j + 1, z), at[0] - half, at[0] + half);
-                set(row_of(raster, at[1] + j - 1, z), at[0] - half, at[0] + half);
+                set(up, down, span_of(at[0] - half, at[0] + half));
             }
+        }
     }
+}
+
+/* Mark every so many balls, but for those that would add nothing. */
+static void mark_every(struct cage_raster *raster, int32_t dim, const cage_ball *ball, int32_t count, int32_t first, int32_t pace,
+                       struct stamp *stamp)
+{
+    for (int32_t i = first; i < count; i += pace)
+        if (!blocks_cover(raster, dim, &ball[i]))
+            mark(raster, dim, &ball[i], stamp);
+    sum_up(raster);
 }
 
 /* It cannot meet pixel (i, j, k) if (|i|-1)^2 + (|j|-1)^2 + (|k|-1)^2 > r^2 / width^2, negative terms taken as 0. */
@@ -151,13 +189,14 @@ static bool keeps(const struct cage_raster *raster, int32_t dim, const cage_ball
         if (deep * deep > square)
             break;
         cut(stamp, square - deep * deep);
-        for (int32_t z = at[2] - k; z <= at[2] + k; z += k ? 2 * k : 1)
-            for (int32_t j = 0; j <= stamp->rows; j++) {
+        for (int32_t z = at[2] - k; z <= at[2] + k; z += k ? 2 * k : 1) {
+            const uint64_t *up = row_of(raster, at[1], z), *down = up;
+            for (int32_t j = 0; j <= stamp->rows; j++, up -= raster->row, down += raster->row) {
                 int32_t half = stamp->width[j > 0 ? j - 1 : 0] + 1;
-                if (!all_set(row_of(raster, at[1] - j, z), at[0] - half, at[0] + half) ||
-                    !all_set(row_of(raster, at[1] + j, z), at[0] - half, at[0] + half))
+                if (!all_set(up, down, span_of(at[0] - half, at[0] + half)))
                     return true;
             }
+        }
     }
     return false;
 }
@@ -193,13 +232,10 @@ int32_t cage_raster_make(struct cage_arena *arena, int32_t dim, const cage_ball 
     memset(raster->covered, 0, words * sizeof *raster->covered);
     /* A few balls cover most of what is covered; most of the others then add nothing. */
     struct stamp stamp = {-1, 0, {0}};
-    for (int32_t i = 0; i < count; i += FIRST)
-        mark(raster, dim, &ball[i], &stamp);
-    sum_up(raster);
-    for (int32_t i = 0; i < count; i++)
-        if (i % FIRST != 0 && !blocks_cover(raster, dim, &ball[i]))
-            mark(raster, dim, &ball[i], &stamp);
-    sum_up(raster);
+    memset(raster->blocks, 0, blocks * sizeof *raster->blocks);
+    mark_every(raster, dim, ball, count, 0, FIRST, &stamp);
+    for (int32_t pace = FIRST; pace > 1; pace /= 2)
+        mark_every(raster, dim, ball, count, pace / 2, pace, &stamp);
     return CAGE_OK;
 }
 

@@ -1,6 +1,10 @@
 /* refine: which cell to cut when the inner side has found a way that the outer side has not. */
 #include "proof.h"
 
+/* A cell where the two sides part is cut unless it is finer than the coarsest beyond by more levels than this: in space such cells lie along a
+ * surface, and cutting these alone would resolve it without end. */
+enum { LEAD = 1 };
+
 static bool refinable(const struct cage_proof *proof, int32_t cell)
 {
     return cell >= CAGE_CELL_ROOT && proof->graph.cell[cell].cell.level < proof->limits.max_level;
@@ -35,7 +39,9 @@ int32_t cage_refine_choose(const struct cage_proof *proof, struct cage_node *tar
         if (node->from && coarser(proof, node->from->cell, at_stop))
             at_stop = node->from->cell;
     }
-    return at_stop >= 0 ? at_stop : beyond;
+    if (at_stop < 0 || beyond < 0)
+        return at_stop >= 0 ? at_stop : beyond;
+    return proof->graph.cell[at_stop].cell.level <= proof->graph.cell[beyond].cell.level + LEAD ? at_stop : beyond;
 }
 
 static bool is_reached(const struct cage_proof *proof, int32_t side, int32_t cell)

@@ -1,10 +1,19 @@
 /* search: breadth first over the components of one side, building and gluing slices where it comes. */
 #include "certify.h"
+#include "grid.h"
 #include "proof.h"
 
 static int32_t make(struct cage_proof *proof, int32_t side, int32_t cell, struct cage_slice *slice)
 {
-    return cage_slice_make(&proof->scratch, &proof->side[side], &proof->graph.cell[cell].rotations, slice);
+    const struct cage_leaf *leaf = &proof->graph.cell[cell];
+    int32_t corner[8][4];
+    struct cage_corners corners;
+    bool within = cell >= CAGE_CELL_ROOT && proof->graph.fibre->corners;
+    if (within) {
+        proof->graph.fibre->corners(&leaf->cell, corner);
+        cage_corners_of(leaf->rotations.q, corner, &corners);
+    }
+    return cage_slice_make_within(&proof->scratch, &proof->side[side], &leaf->rotations, within ? &corners : NULL, slice);
 }
 
 static int32_t put(struct cage_proof *proof, int32_t side, int32_t cell, const struct cage_slice *slice)
@@ -89,8 +98,10 @@ static int32_t both_slices(struct cage_proof *proof, int32_t side, int32_t a, in
     return CAGE_ERROR_MEMORY;
 }
 
-static int32_t glue(struct cage_proof *proof, int32_t side, int32_t a, int32_t b)
+/* Glue the node's component, and those it is connected with, with cell b. */
+static int32_t glue(struct cage_proof *proof, int32_t side, const struct cage_node *node, int32_t b)
 {
+    int32_t a = node->cell;
     const struct cage_slice *c, *d;
     int32_t error = both_slices(proof, side, a, b, &c, &d);
     if (error != CAGE_OK)
@@ -98,11 +109,11 @@ static int32_t glue(struct cage_proof *proof, int32_t side, int32_t a, int32_t b
     size_t mark = proof->scratch.used;
     struct cage_touch *touch;
     int32_t count, mixed;
-    error = cage_glue(&proof->scratch, c, d, &touch, &count, &mixed);
+    error = cage_glue(&proof->scratch, c, d, node->component, &touch, &count, &mixed);
     if (error == CAGE_OK && side == CAGE_OUTER && mixed)
         count = keep_exact(c, d, touch, count);
     if (error == CAGE_OK)
-        error = cage_graph_add_gluing(&proof->graph, side, a, b, touch, count);
+        error = cage_graph_add_gluing(&proof->graph, side, a, b, node->component, touch, count);
     proof->result.gluings[side]++;
     proof->result.mixtures[side] += mixed;
     cage_arena_release(&proof->scratch, mark);
@@ -119,12 +130,12 @@ static bool may_enter(const struct cage_proof *proof, int32_t side, int32_t cell
     return side == CAGE_INNER || proof->corridor == 0 || proof->graph.cell[cell].corridor == proof->corridor;
 }
 
-/* The next neighbour of the cell, after `after`, that it is not glued with; -1: none. */
-static int32_t unglued(const struct cage_proof *proof, int32_t side, int32_t cell, int32_t after)
+/* A neighbour of the node's cell that it is not glued with; -1: none. */
+static int32_t unglued(const struct cage_proof *proof, int32_t side, const struct cage_node *node)
 {
-    int32_t next = cage_graph_neighbour(&proof->graph, cell, after);
-    while (next >= 0 && (!may_enter(proof, side, next) || cage_graph_is_glued(&proof->graph, side, cell, next)))
-        next = cage_graph_neighbour(&proof->graph, cell, next);
+    int32_t next = cage_graph_neighbour(&proof->graph, node->cell, -1);
+    while (next >= 0 && (!may_enter(proof, side, next) || cage_graph_is_glued(node, next)))
+        next = cage_graph_neighbour(&proof->graph, node->cell, next);
     return next;
 }
 
@@ -209,7 +220,6 @@ static void follow_again(struct cage_proof *proof, int32_t side, int32_t cell)
 /* The outer side needs some clearance: where start or goal has none, look for a free leg to a place that has. */
 static void locate_end(struct cage_proof *proof, const struct cage_slice *slice, int32_t side, int32_t end)
 {
-    static const int32_t around[8][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
     const int32_t *at = proof->at[end], *q = proof->graph.cell[end].rotations.q;
     int32_t reach = proof->scene.dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
     int32_t *label = &proof->label[side][end];
@@ -217,9 +227,12 @@ static void locate_end(struct cage_proof *proof, const struct cage_slice *slice,
     for (int32_t k = 0; k < 3; k++)
         proof->outer_at[end][k] = side == CAGE_OUTER ? at[k] : proof->outer_at[end][k];
     for (int32_t size = 16; side == CAGE_OUTER && *label == CAGE_COVERED && size < reach / 4; size *= 4)
-        for (int32_t i = 0; i < 8 && *label == CAGE_COVERED; i++) {
-            const int32_t to[3] = {at[0] + size * around[i][0], at[1] + size * around[i][1], at[2]};
-            bool inside = to[0] >= -reach && to[0] <= reach && to[1] >= -reach && to[1] <= reach;
+        for (int32_t i = 0; i < 27 && *label == CAGE_COVERED; i++) {
+            const int32_t toward[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+            const int32_t to[3] = {at[0] + size * toward[0], at[1] + size * toward[1], at[2] + size * toward[2]};
+            bool inside = proof->scene.dim == 3 || toward[2] == 0;
+            for (int32_t k = 0; k < 3; k++)
+                inside = inside && to[k] >= -reach && to[k] <= reach;
             int32_t there = inside ? cage_slice_locate(slice, to) : CAGE_COVERED;
             if (there == CAGE_COVERED || !cage_certify_leg(&proof->scene, proof->result.pivot, q, at, to, 0))
                 continue;
@@ -261,19 +274,19 @@ int32_t cage_search(struct cage_proof *proof, int32_t side)
             return CAGE_FOUND;
         if (!reach->open_head)
             return CAGE_CLOSED;
-        int32_t cell = reach->open_head->cell, scope = side == CAGE_OUTER && proof->corridor ? proof->corridor : -1;
-        struct cage_facts *facts = &proof->graph.cell[cell].facts[side];
-        int32_t other = facts->settled == -1 || facts->settled == scope ? -1 : unglued(proof, side, cell, -1);
+        struct cage_node *node = reach->open_head;
+        int32_t scope = side == CAGE_OUTER && proof->corridor ? proof->corridor : -1;
+        int32_t other = node->settled == -1 || node->settled == scope ? -1 : unglued(proof, side, node);
         if (other < 0) {
-            facts->settled = facts->settled == -1 ? -1 : scope;
-            reach->open_head = reach->open_head->next_open;
+            node->settled = node->settled == -1 ? -1 : scope;
+            reach->open_head = node->next_open;
             continue;
         }
         const struct cage_slice *slice;
         if (proof->graph.cell[other].facts[side].nodes == 0)
             return cage_proof_slice(proof, side, other, &slice);
-        int32_t error = glue(proof, side, cell, other);
-        follow_again(proof, side, cell);
+        int32_t error = glue(proof, side, node, other);
+        follow_again(proof, side, node->cell);
         follow_again(proof, side, other);
         return error;
     }

@@ -5,7 +5,8 @@
 
 #include <string.h>
 
-static void place(const struct cage_side *side, const struct cage_rotations *rotations, struct cage_part *part)
+static void place(const struct cage_side *side, const struct cage_rotations *rotations, const struct cage_corners *corners,
+                  struct cage_part *part)
 {
     struct cage_rotation rotation;
     cage_rotation_of(rotations->q, &rotation);
@@ -14,6 +15,8 @@ static void place(const struct cage_side *side, const struct cage_rotations *rot
         const int32_t y[3] = {ball->x, ball->y, ball->z};
         cage_rotate(&rotation, y, part[a].at);
         part[a].displacement = cage_displacement(rotations->turn, side->reach[a]);
+        int32_t within = corners ? cage_displacement_within(corners, y) : part[a].displacement;
+        part[a].displacement = within < part[a].displacement ? within : part[a].displacement;
         part[a].change = cage_radius_change(part[a].displacement, side->sign);
     }
 }
@@ -148,7 +151,7 @@ void cage_slice_pack(const struct cage_slice *slice, void *block, struct cage_sl
 }
 
 static int32_t make(struct cage_arena *arena, const struct cage_side *side, const struct cage_rotations *rotations,
-                    struct cage_slice *out)
+                    const struct cage_corners *corners, struct cage_slice *out)
 {
     size_t pairs = (size_t)side->objects * (size_t)side->obstacles;
     out->parts = side->objects;
@@ -157,7 +160,7 @@ static int32_t make(struct cage_arena *arena, const struct cage_side *side, cons
     int32_t *of = cage_arena_take(arena, pairs, sizeof *of);
     if (!out->part || !ball || !of)
         return CAGE_ERROR_MEMORY;
-    place(side, rotations, out->part);
+    place(side, rotations, corners, out->part);
     int32_t count = collide(side, out->part, ball, of);
     struct cage_raster raster;
     int32_t error = cage_raster_make(arena, side->dim, ball, count, &raster);
@@ -199,8 +202,14 @@ static int32_t make(struct cage_arena *arena, const struct cage_side *side, cons
 int32_t cage_slice_make(struct cage_arena *arena, const struct cage_side *side, const struct cage_rotations *rotations,
                         struct cage_slice *out)
 {
+    return cage_slice_make_within(arena, side, rotations, NULL, out);
+}
+
+int32_t cage_slice_make_within(struct cage_arena *arena, const struct cage_side *side, const struct cage_rotations *rotations,
+                               const struct cage_corners *corners, struct cage_slice *out)
+{
     size_t mark = arena->used;
-    int32_t error = make(arena, side, rotations, out);
+    int32_t error = make(arena, side, rotations, corners, out);
     if (error != CAGE_OK)
         cage_arena_release(arena, mark);
     return error;

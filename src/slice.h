@@ -4,6 +4,7 @@
 
 #include "body.h"
 #include "component.h"
+#include "grid.h"
 
 /* The rotations that a slice speaks for: all within `turn` (see cage_turn) of q. */
 struct cage_rotations {
@@ -41,6 +42,10 @@ struct cage_slice {
 /* Build the slice in the arena: exact for the rounded balls. */
 int32_t cage_slice_make(struct cage_arena *arena, const struct cage_side *side, const struct cage_rotations *rotations,
                         struct cage_slice *out);
+
+/* The same for the rotations between the corners of a cell; null: for all within the turn. */
+int32_t cage_slice_make_within(struct cage_arena *arena, const struct cage_side *side, const struct cage_rotations *rotations,
+                               const struct cage_corners *corners, struct cage_slice *out);
 
 /* Copy it into a block of out->bytes bytes, aligned to CAGE_ALIGN. */
 void cage_slice_pack(const struct cage_slice *slice, void *block, struct cage_slice *out);

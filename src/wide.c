@@ -3,25 +3,16 @@
 
 uint32_t cage_u128_bits(cage_i128 a)
 {
-    uint64_t word = cage_i128_high(a);
-    uint32_t bits = 64;
-    if (word == 0) {
-        word = cage_i128_low(a);
-        bits = 0;
-    }
-    for (uint32_t half = 32; half > 0; half /= 2)
-        if (word >> half) {
-            word >>= half;
-            bits += half;
-        }
-    return bits + (uint32_t)word;
+    uint64_t high = cage_i128_high(a);
+    return high ? 64 + cage_u64_bits(high) : cage_u64_bits(cage_i128_low(a));
 }
 
 cage_i128 cage_u128_divide(cage_i128 a, cage_i128 b, cage_i128 *remainder)
 {
     uint64_t high = 0, low = 0;
-    cage_i128 rest = cage_i128_of(0); /* < b < 2^127, so that doubling it cannot overflow */
-    for (uint32_t bit = cage_u128_bits(a); bit-- > 0;) {
+    uint32_t of_a = cage_u128_bits(a), of_b = cage_u128_bits(b), bit = of_a < of_b ? 0 : of_a - of_b + 1;
+    cage_i128 rest = bit > 127 ? cage_i128_of(0) : cage_i128_shr(a, bit); /* < b < 2^127, so that doubling it cannot overflow */
+    while (bit-- > 0) {
         uint64_t next = bit >= 64 ? cage_i128_high(a) >> (bit - 64) : cage_i128_low(a) >> bit;
         rest = cage_i128_add(cage_i128_shl(rest, 1), cage_i128_of((int64_t)(next & 1)));
         cage_i128 less = cage_i128_sub(rest, b);

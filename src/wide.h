@@ -15,6 +15,22 @@
 #define CAGE_INLINE inline
 #endif
 
+/* Bits of the number: 0 for 0. */
+static CAGE_INLINE uint32_t cage_u64_bits(uint64_t a)
+{
+#if defined(__GNUC__) && !defined(CAGE_LIMBS)
+    return a ? 64 - (uint32_t)__builtin_clzll(a) : 0;
+#else
+    uint32_t bits = 0;
+    for (uint32_t half = 32; half > 0; half /= 2)
+        if (a >> half) {
+            a >>= half;
+            bits += half;
+        }
+    return bits + (uint32_t)a;
+#endif
+}
+
 #if defined(__SIZEOF_INT128__) && !defined(CAGE_LIMBS)
 
 __extension__ typedef __int128 cage_i128;

@@ -49,9 +49,11 @@ struct backend {
     void (*centre)(int32_t dim, const struct cage_site *const v[4], words out[4]);
     int32_t (*centre_power)(int32_t dim, const struct cage_site *const v[4]);
     int32_t (*centre_side)(int32_t dim, const struct cage_site *const face[3], const struct cage_site *const v[4]);
+    bool (*centre_off)(int32_t dim, const struct cage_site *const v[4], const struct cage_site *ball);
     int32_t (*facet_power)(int32_t dim, const struct cage_site *const facet[3]);
     bool (*facet_attached)(int32_t dim, const struct cage_site *const facet[3], const struct cage_site *w);
-    bool (*facet_covered)(int32_t dim, const struct cage_site *const facet[3]);
+    bool (*edges_covered)(int32_t count, const int64_t square[3], const int64_t weight[3]);
+    bool (*tetrahedron_covered)(int64_t square[4][4], const int64_t weight[4]);
     long *exact; /* counts the 256-bit products of predicate.c; null where nobody counts */
 };
 

@@ -104,6 +104,13 @@ static int32_t backend_centre_side(int32_t dim, const struct cage_site *const fa
     return cage_centre_side(dim, face, &centre);
 }
 
+static bool backend_centre_off(int32_t dim, const struct cage_site *const v[4], const struct cage_site *ball)
+{
+    struct cage_centre centre;
+    cage_orthocentre(dim, v, &centre);
+    return cage_centre_off(dim, &centre, ball);
+}
+
 #ifndef BACKEND_EXACT
 #define BACKEND_EXACT NULL
 #endif
@@ -114,5 +121,6 @@ static int32_t backend_centre_side(int32_t dim, const struct cage_site *const fa
 const struct backend BACKEND = {
     BACKEND_TEXT(BACKEND), backend_wide,         backend_side,        backend_conflict,     backend_volume,
     backend_norm_compare,  backend_power,        backend_centre,      backend_centre_power, backend_centre_side,
-    cage_facet_power,      cage_facet_attached,  cage_facet_covered,  BACKEND_EXACT,
+    backend_centre_off,    cage_facet_power,     cage_facet_attached, cage_edges_covered,   cage_tetrahedron_covered,
+    BACKEND_EXACT,
 };

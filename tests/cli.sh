@@ -4,6 +4,8 @@
 #
 # The truths are by construction. The fence is eight discs of radius 2.5 around a square of half side 4: neighbours
 # overlap, so nothing gets out. Without the disc at (4,0) the gap is 8 - 5 = 3 wide, and a disc of diameter 2 leaves.
+# The crate is the same in space, 26 balls of radius 2.5: no point of its sides is farther from a centre than 2.83, so no centre of a ball
+# of radius 1 gets through. Without the ball at (4,0,0) four balls leave a gap 3 wide.
 
 command=${1:-build/cage}
 case $command in */*) ;; *) command=./$command ;; esac
@@ -40,6 +42,17 @@ echo '0 0 1e-120' >"$folder/small_disc"
 echo '0 0 1e120' >"$folder/large_disc"
 echo '0 0 1e-310' >"$folder/denormal_disc"
 printf '%s\n' '-0.9 0 0.5' '0 0 0.5' '0.9 0 0.5' >"$folder/bar"
+awk -v all="$folder/crate" -v gap="$folder/crate_gap" 'BEGIN {
+    for (x = -4; x <= 4; x += 4) for (y = -4; y <= 4; y += 4) for (z = -4; z <= 4; z += 4) if (x != 0 || y != 0 || z != 0) {
+        print x, y, z, 2.5 > all
+        if (x != 4 || y != 0 || z != 0) print x, y, z, 2.5 > gap
+    }
+}'
+echo '0 0 0 1' >"$folder/ball"
+printf '%s\n' '-0.5 0 0 0.5' '0.5 0 0 0.5' >"$folder/pair"
+space=$(dirname "$0")/../examples/space
+for file in guest shell sieve ring link; do cp "$space/$file.xyzr" "$folder/$file" || exit 1; done
+home=0,0,0,1,0,0,0
 : >"$folder/empty"
 
 # ---- cases ----------------------------------------------------------------------------------------
@@ -160,6 +173,37 @@ says FREE
 prove "a hair less than touching is" disc disc 1.999999,0,0
 says IN_COLLISION
 
+prove "space: verdict CAGED" ball crate $home
+says CAGED
+prove "space: verdict CAGED, a part that is no ball" pair crate 0,0,0,3,1,-2,0.5
+says CAGED
+prove "space: verdict FREE" ball crate_gap $home
+says FREE
+prove "space: verdict DISCONNECTED" ball crate $home --goal 20,0,0,1,0,0,0
+says DISCONNECTED
+prove "space: verdict CONNECTED" ball crate_gap $home --goal 20,0,0,1,0,0,0
+says CONNECTED
+prove "space: verdict CONNECTED, turned inside" pair crate $home --goal 0,0.05,0,1,1,1,1
+says CONNECTED
+prove "space: verdict IN_COLLISION, start" ball crate 3,0,0,1,0,0,0
+says IN_COLLISION
+prove "space: verdict IN_COLLISION, goal" ball crate $home --goal 3,0,0,1,0,0,0
+says IN_COLLISION
+prove "space: verdict UNDEFINED: the outer side cannot prove a cage" ball crate $home --side outer --max-level 2
+says UNDEFINED
+prove "space: touching is no collision" ball ball 0,0,2,1,0,0,0
+says FREE
+prove "space: a hair less than touching is" ball ball 0,0,1.999999,1,0,0,0
+says IN_COLLISION
+prove "space: the guest in the shell" guest shell $home
+says CAGED
+prove "space: the guest in the sieve" guest sieve $home
+says FREE
+prove "space: two rings apart" ring link 4,0,0,1,0,0,0
+says FREE
+prove "space: nothing at all" empty empty $home
+says FREE
+
 prove "--side inner proves a cage" bar fence 0,0,0 --side inner
 says CAGED
 prove "--side outer finds a path" bar fence_gap 0,0,0 --side outer
@@ -277,7 +321,6 @@ prove "a file that is not there" none fence 0,0,0
 refused "^$folder/none: cannot be opened"
 prove "a folder for a file" . fence 0,0,0
 refused "^$folder/\\.: cannot be read"
-echo '0 0 0 1' >"$folder/ball"
 prove "object in the plane, obstacles in space" disc ball 0,0,0
 refused 'dimensions'
 prove "a pose in space for a scene in the plane" disc fence 0,0,0,1,0,0,0
@@ -340,6 +383,26 @@ extra "--goal infinite" '--goal: ' --goal 1,inf,0
 extra "--goal beyond all bounds" '--goal: ' --goal 1e308,0,0
 extra "--goal empty" '--goal: ' --goal ''
 extra "--svg into no folder" '--svg: ' --quiet --svg "$folder/none/picture.svg"
+extra "--ply in the plane" '--ply: a mesh is of a scene in space' --ply "$folder/mesh.ply"
+
+# The same in space.
+space_extra() {
+    what=$1 message=$2
+    shift 2
+    option "space: $what" "$message" --object "$folder/ball" --obstacles "$folder/crate" --start $home "$@"
+}
+
+space_extra "--max-level too large" "--max-level: '12' is not a whole number from 0 to 11" --max-level 12
+space_extra "--max-cells too large" '--max-cells: .* from 4 to 16777216' --max-cells 16777217
+space_extra "--max-cells too small" '--max-cells: .* from 4 to 16777216' --max-cells 3
+space_extra "--ply into no folder" '--ply: .*cannot be written' --quiet --ply "$folder/none/mesh.ply"
+space_extra "--ply that is a folder" '--ply: .*cannot be written' --quiet --ply "$folder"
+space_extra "--svg into no folder" '--svg: .*cannot be written' --quiet --svg "$folder/none/picture.svg"
+space_extra "--goal in the plane" '--goal' --goal 1,2,3
+case="--ply in the plane leaves no file"
+holds [ ! -e "$folder/mesh.ply" ]
+prove "space: --max-level 11" ball crate $home --max-level 11
+says CAGED
 option "--start of two numbers" '--start: ' --object "$folder/disc" --obstacles "$folder/fence" --start 1,2
 option "--start with a zero quaternion" '--start: ' --object "$folder/ball" --obstacles "$folder/ball" --start 5,0,0,0,0,0,0
 
@@ -356,7 +419,7 @@ for name in --help -h; do
     holds [ "$code" -eq 0 ]
 done
 for word in CAGED DISCONNECTED FREE CONNECTED IN_COLLISION UNDEFINED --object --obstacles --start --goal --side \
-    --max-level --max-cells --memory --unit --json --svg --quiet; do
+    --max-level --max-cells --memory --unit --json --svg --ply --quiet; do
     if ! grep -q -- "$word" "$folder/out"; then missing="$missing $word"; fi
 done
 case="prove --help names every verdict and option"
@@ -408,6 +471,15 @@ for unit in 0.3 1 1000 1e30; do
     prove "--unit $unit gives no false cage" bar fence_gap 0,0,0 --unit $unit
     says FREE UNDEFINED
 done
+
+prove "space: --max-level 0 gives no false path" pair crate $home --max-level 0
+says CAGED UNDEFINED
+prove "space: --max-level 0 gives no false cage" pair crate_gap $home --max-level 0
+says FREE UNDEFINED
+prove "space: --max-cells 4 gives no false path" pair crate $home --max-cells 4
+says CAGED UNDEFINED
+prove "space: --unit 0.5 gives no false cage" ball crate_gap $home --unit 0.5
+says FREE UNDEFINED
 
 # memory: exit 3 and a size; with that size, or after a few more such steps, the answer.
 for scene in fence fence_gap; do
@@ -468,22 +540,32 @@ with open(sys.argv[1]) as file:
 assert answer["verdict"] == sys.argv[2]
 for key in sys.argv[3:]:
     assert key in answer, key
-assert answer["dim"] in (2, 3) and answer["unit"] > 0 and len(answer["start"]) == (3 if answer["dim"] == 2 else 7)
+space = answer["dim"] == 3
+assert answer["dim"] in (2, 3) and len(answer["pivot"]) == answer["dim"] and answer["unit"] > 0 and len(answer["start"]) == (3 if answer["dim"] == 2 else 7)
 path = answer["path"]
 assert (len(path) > 1) == (sys.argv[2] in ("FREE", "CONNECTED")), len(path)
 for pose in path:
     assert len(pose) == len(answer["start"]) and all(math.isfinite(x) for x in pose)
 if path:
-    assert all(abs(a - b) < 1e-3 for a, b in zip(path[0][:2], answer["start"][:2])), path[0]
+    assert all(abs(a - b) < 1e-3 for a, b in zip(path[0][:answer["dim"]], answer["start"])), path[0]
 if path and answer["goal"]:
-    assert all(abs(a - b) < 1e-3 for a, b in zip(path[-1][:2], answer["goal"][:2])), path[-1]
+    assert all(abs(a - b) < 1e-3 for a, b in zip(path[-1][:answer["dim"]], answer["goal"])), path[-1]
 # Each leg either keeps the angle or turns about the pivot.
-px, py = answer["pivot"][:2] if path else (0, 0)
 def pivot(pose):
-    a = math.radians(pose[2])
-    return pose[0] + math.cos(a) * px - math.sin(a) * py, pose[1] + math.sin(a) * px + math.cos(a) * py
+    if not space:
+        (x, y), a = answer["pivot"], math.radians(pose[2])
+        return pose[0] + math.cos(a) * x - math.sin(a) * y, pose[1] + math.sin(a) * x + math.cos(a) * y
+    w, v, p = pose[3], pose[4:], answer["pivot"]
+    u = [2 * (v[k - 2] * p[k - 1] - v[k - 1] * p[k - 2]) for k in range(3)]
+    return [pose[k] + p[k] + w * u[k] + v[k - 2] * u[k - 1] - v[k - 1] * u[k - 2] for k in range(3)]
+def turn(a, b):
+    if not space:
+        return abs((a[2] - b[2] + 180) % 360 - 180)
+    return math.degrees(2 * min(math.dist(a[3:], b[3:]), math.dist(a[3:], [-x for x in b[3:]])))
+for pose in path:
+    assert not space or abs(math.hypot(*pose[3:]) - 1) < 1e-12, pose
 for a, b in zip(path, path[1:]):
-    turned = abs((a[2] - b[2] + 180) % 360 - 180) > 1e-5
+    turned = turn(a, b) > 1e-5
     moved = math.dist(pivot(a), pivot(b)) > 1e-4
     assert not (turned and moved), (a, b)
 END
@@ -510,6 +592,34 @@ picture() {
     rm -f "$folder/picture.svg"
 }
 
+# The mesh is an ASCII PLY with as many vertices and triangles as its header says, no more, and no other corners.
+mesh() {
+    if awk '
+        NR == 1 && $0 != "ply" || NR == 2 && $0 != "format ascii 1.0" { bad = 1 }
+        !body { if ($1 == "element") n[$2] = $3; if ($0 == "end_header") body = NR; next }
+        NR - body <= n["vertex"] { if (NF != 7 || $0 ~ /[nN]/ || $4 > 255 || $7 > 255) bad = 1; next }
+        { if (NF != 4 || $1 != 3 || $2 == $3 || $3 == $4 || $4 == $2) bad = 1
+          for (k = 2; k <= 4; k++) if ($k !~ /^[0-9]+$/ || $k >= n["vertex"]) bad = 1 }
+        END { exit bad || !body || n["vertex"] < 12 || NR - body != n["vertex"] + n["face"] }' "$folder/mesh.ply"; then
+        pass
+    else
+        fail "the mesh is not what its header says"
+    fi
+    rm -f "$folder/mesh.ply"
+}
+
+# verdict, then as for prove, without the name: JSON and both pictures of a scene in space
+shown_in_space() {
+    verdict=$1 what="$2 in $3"
+    shift
+    prove "space: --json of $verdict, $what" "$@" --json --svg "$folder/picture.svg" --ply "$folder/mesh.ply" --quiet
+    json "$verdict"
+    case="space: three views of $verdict, $what"
+    if [ "$(grep -c '<clipPath id="view[012]">' "$folder/picture.svg")" -eq 3 ]; then picture; else fail "not three views"; fi
+    case="space: --ply of $verdict, $what"
+    mesh
+}
+
 # verdict, then as for prove, without the name
 shown() {
     verdict=$1 what="$2 in $3"
@@ -533,6 +643,22 @@ shown CAGED large_disc large 0,0,0
 shown CAGED small_disc small 0,0,0
 shown CAGED fence disc 0,0,0
 
+shown_in_space CAGED guest shell $home
+shown_in_space CAGED pair crate 0,0,0,3,1,-2,0.5
+shown_in_space DISCONNECTED ball crate $home --goal 20,0,0,1,0,0,0
+shown_in_space FREE guest sieve $home
+shown_in_space FREE pair crate_gap $home
+shown_in_space CONNECTED pair crate_gap $home --goal 20,0,0,1,1,1,1
+shown_in_space UNDEFINED pair crate $home --side outer --max-level 2
+shown_in_space IN_COLLISION ball crate 3,0,0,1,0,0,0
+shown_in_space IN_COLLISION ball crate $home --goal 3,0,0,1,0,0,0
+shown_in_space FREE ball empty $home
+shown_in_space FREE ring link 4,0,0,1,0,0,0
+echo '0 0 0 0' >"$folder/point3"
+shown_in_space FREE point3 point3 1,0,0,1,0,0,0
+prove "space: the text says how fine the cells are" guest shell $home
+holds grep -q 'level 1 (within 71.6 degrees of its middle)' "$folder/out"
+
 prove "the same question gives the same answer" bar fence_gap 0,0,0 --json
 grep -v seconds "$folder/out" >"$folder/first"
 prove "the same question gives the same answer" bar fence_gap 0,0,0 --json
@@ -547,6 +673,8 @@ if [ -c /dev/full ]; then
     refused 'cannot be written'
     prove "nor for a picture" disc fence 0,0,0 --quiet --svg /dev/full
     holds [ "$code" -eq 2 ]
+    prove "nor for a mesh" ball crate $home --quiet --ply /dev/full
+    refused '--ply: /dev/full could not be written whole'
 fi
 
 echo "$passed passed, $failed failed"

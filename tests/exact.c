@@ -201,8 +201,55 @@ bool exact_covered(int dim, const struct cage_site *const facet[3])
     return covered;
 }
 
+/* The stationary point of the sum among the l that are 0 off `of`: sum_k square_ik l_k + m = weight_i, sum of l = 1. False if there is
+ * not just one or it has a negative l; else *sign of the sum there. */
+static bool stationary(int64_t square[4][4], const int64_t weight[4], const int *of, int count, int *sign)
+{
+    struct linear_system s;
+    mpq_t sum, part;
+    system_init(&s, count + 1);
+    mpq_inits(sum, part, NULL);
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < count; k++)
+            set_entry(&s, i, k, i == k ? 0 : square[of[i]][of[k]]);
+        set_entry(&s, i, count, 1);
+        set_entry(&s, i, count + 1, weight[of[i]]);
+        set_entry(&s, count, i, 1);
+    }
+    set_entry(&s, count, count, 0);
+    set_entry(&s, count, count + 1, 1);
+    bool found = system_solve(&s);
+    for (int i = 0; i < count && found; i++) {
+        found = mpq_sgn(s.m[i][count + 1]) >= 0;
+        add_multiple(sum, -weight[of[i]], s.m[i][count + 1]);
+        for (int k = 0; k < i; k++) {
+            mpq_mul(part, s.m[i][count + 1], s.m[k][count + 1]);
+            add_multiple(sum, square[of[i]][of[k]], part);
+        }
+    }
+    *sign = mpq_sgn(sum);
+    mpq_clears(sum, part, NULL);
+    system_clear(&s);
+    return found;
+}
+
+/* The greatest value is taken where all l that are not 0 are free to move: at a stationary point among these. If there are many, the sum
+ * is the same at all of them, and one of them has a further l = 0. */
+bool exact_nowhere_positive(int count, int64_t square[4][4], const int64_t weight[4])
+{
+    for (int set = 1; set < 1 << count; set++) {
+        int of[4], members = 0, sign;
+        for (int i = 0; i < count; i++)
+            if (set >> i & 1)
+                of[members++] = i;
+        if (stationary(square, weight, of, members, &sign) && sign > 0)
+            return false;
+    }
+    return true;
+}
+
 /* Determinant by Bareiss's elimination, in which every division is exact. */
-static void determinant(int n, int64_t entries[4][4], mpz_t out)
+void exact_determinant(int n, int64_t entries[4][4], mpz_t out)
 {
     mpz_t m[4][4], term;
     int sign = 1;
@@ -245,7 +292,7 @@ void exact_volume(int dim, const struct cage_site *const v[4], mpz_t out)
     for (int i = 0; i < dim; i++)
         for (int k = 0; k < dim; k++)
             m[i][k] = entry(v[i + 1], k) - entry(v[0], k);
-    determinant(dim, m, out);
+    exact_determinant(dim, m, out);
 }
 
 int exact_orientation(int dim, const struct cage_site *const v[4])
@@ -268,7 +315,7 @@ void exact_lift(int dim, const struct cage_site *const v[4], const struct cage_s
             m[i][k] = entry(v[i], k) - entry(p, k);
         m[i][dim] = v[i]->h - p->h;
     }
-    determinant(dim + 1, m, out);
+    exact_determinant(dim + 1, m, out);
     if (dim == 2)
         mpz_neg(out, out);
 }

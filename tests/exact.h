@@ -28,6 +28,13 @@ bool exact_barycentric(int dim, const struct cage_site *const v[4], mpq_t x[3], 
 /* Is the whole facet in the union of the closed balls at its vertices? Decided, both ways. */
 bool exact_covered(int dim, const struct cage_site *const facet[3]);
 
+/* Is the sum of l_i l_k square[i][k] over the pairs i < k of up to 4, less the sum of l_i weight_i, positive for no l >= 0 of sum 1?
+ * Decided, both ways. */
+bool exact_nowhere_positive(int count, int64_t square[4][4], const int64_t weight[4]);
+
+/* Of the first n rows and columns. */
+void exact_determinant(int n, int64_t entries[4][4], mpz_t out);
+
 /* det(v_1 - v_0, ..., v_dim - v_0). */
 void exact_volume(int dim, const struct cage_site *const v[4], mpz_t out);
 int exact_orientation(int dim, const struct cage_site *const v[4]);

@@ -78,9 +78,31 @@ if command -v ldd >/dev/null 2>&1; then
     check "the shared program needs libcage.so.$abi" sh -c "LD_LIBRARY_PATH='$usr/lib' ldd ./shared | grep -q 'libcage.so.$abi'"
     check "the static program needs no libcage" sh -c '! ldd ./static | grep -q libcage'
 fi
+
+# What the header declares, comments left out: each a name before a parenthesis.
+$cc -E -P "$usr/include/cage.h" | grep -oE 'cage_[a-z0-9_]+ *\(' | tr -d ' (' | sort >declared
+check "the header declares functions, each once" sh -c 'grep -qx cage_prove_begin declared && ! uniq -d declared | grep .'
 if command -v nm >/dev/null 2>&1; then
-    check "every exported name is cage_... or CAGE_..." sh -c "! nm -D --defined-only '$usr/lib/libcage.so.$abi' | awk '{ print \$NF }' | grep -iv '^cage_' | grep -v '^_'"
+    nm -D --defined-only "$usr/lib/libcage.so.$abi" | awk '$NF !~ /^_/ { print $NF }' | sort >exported
+    check "the shared library exports what the header declares, and nothing else" diff declared exported
+    nm --defined-only "$usr/lib/libcage.a" | awk 'NF == 3 && $2 == "T" { print $3 }' | sort >defined
+    check "the static library defines all of that, each once" sh -c 'comm -12 declared defined | diff declared - && ! uniq -d defined | grep .'
 fi
+{
+    printf '%s\n' '#include <cage.h>' 'typedef void (*function)(void);' 'static const function all[] = {'
+    sed 's/.*/    (function)&,/' declared
+    printf '%s\n' '};' 'int main(void)' '{' '    unsigned i, missing = 0;' '    for (i = 0; i < sizeof all / sizeof *all; i++)' \
+        '        missing += all[i] == 0;' '    return missing != 0;' '}'
+} >all.c
+# shellcheck disable=SC2086
+{
+    check "a program with all functions links with the shared library" $cc -Wall -Wextra -Werror all.c $flags $libs -o all-shared
+    check "a program with all functions links with the static library" $cc -Wall -Wextra -Werror all.c $flags -L"$usr/lib" \
+        -Wl,-Bstatic -lcage -Wl,-Bdynamic -o all-static
+}
+for program in all-shared all-static; do
+    check "$program runs" env LD_LIBRARY_PATH="$usr/lib" "./$program"
+done
 if command -v c++ >/dev/null 2>&1; then
     printf '#include <cage.h>\nint main() { return cage_verdict_text(CAGE_CAGED)[0] != 67; }\n' >user.cpp
     # shellcheck disable=SC2086

@@ -25,8 +25,10 @@
 #define cage_orthocentre RENAME(orthocentre)
 #define cage_centre_power RENAME(centre_power)
 #define cage_centre_side RENAME(centre_side)
+#define cage_centre_off RENAME(centre_off)
 #define cage_facet_power RENAME(facet_power)
 #define cage_facet_attached RENAME(facet_attached)
-#define cage_facet_covered RENAME(facet_covered)
+#define cage_edges_covered RENAME(edges_covered)
+#define cage_tetrahedron_covered RENAME(tetrahedron_covered)
 
 #endif

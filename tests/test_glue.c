@@ -7,18 +7,10 @@
 
 #include "flood.h"
 #include "fibre.h"
-#include "glue.h"
+#include "glued.h"
 #include "scenes.h"
-#include "whole.h"
 
-enum { ARENA = 8 << 20, MOST = 256 };
-
-/* A slice as the library makes it, and one of all balls; name[k]: the library's number of component k. */
-struct pair {
-    struct cage_slice slice;
-    struct whole whole;
-    int32_t name[MOST];
-};
+enum { ARENA = 8 << 20 };
 
 static struct {
     unsigned char *block;
@@ -63,45 +55,19 @@ static void world_make(uint64_t seed, int32_t sign)
     ck_assert_int_eq(cage_side_make(&world.arena, &world.view, pivot, sign, &world.side), CAGE_OK);
 }
 
-static void make(const struct cage_rotations *rotations, struct pair *out)
-{
-    test_require(cage_slice_make(&world.arena, &world.side, rotations, &out->slice) == CAGE_OK);
-    whole_make(&world.side, rotations, &out->whole);
-}
-
-/* The components of both are the same, one to one. */
-static void name_components(struct pair *p)
-{
-    bool taken[MOST] = {false};
-    test_require(p->whole.c.count < MOST);
-    ck_assert_int_eq(p->slice.balls, p->whole.count);
-    ck_assert_int_eq(p->slice.regions, p->whole.c.count);
-    p->name[0] = CAGE_OUTSIDE;
-    for (int32_t k = 1; k < p->whole.c.count; k++) {
-        p->name[k] = whole_label(&p->slice.t, p->slice.label, &p->whole.t, p->whole.c.deep[k]);
-        ck_assert_int_gt(p->name[k], 0);
-        ck_assert_int_lt(p->name[k], p->slice.regions);
-        ck_assert(!taken[p->name[k]]);
-        taken[p->name[k]] = true;
-        test_require(whole_label(&p->whole.t, p->whole.c.label, &p->slice.t, p->slice.region[p->name[k]].deep) == k);
-    }
-}
-
-static int32_t named(const struct pair *p, int32_t label) { return label < 0 ? label : p->name[label]; }
-
 /* The points that a slice promises, and many others, are where they should be. */
-static void check_slice(const struct pair *p, const struct flood *grid)
+static void check_slice(const struct glued *p, const struct flood *grid)
 {
     int32_t hint = 0;
     for (int32_t k = 0; k < p->slice.regions; k++)
         if (p->slice.region[k].known) {
             test_require(cage_slice_locate(&p->slice, p->slice.region[k].point) == k);
-            test_require(named(p, whole_locate(&p->whole, p->slice.region[k].point, &hint)) == k);
+            test_require(glued_locate(p, p->slice.region[k].point, &hint) == k);
         }
     for (int32_t cell = 0; cell < grid->cells; cell++) {
         int32_t x[3];
         flood_centre(grid, cell, x);
-        test_require(cage_slice_locate(&p->slice, x) == named(p, whole_locate(&p->whole, x, &hint)));
+        test_require(cage_slice_locate(&p->slice, x) == glued_locate(p, x, &hint));
     }
 }
 
@@ -140,57 +106,24 @@ static void choose(uint64_t *state, struct cage_rotations *c, struct cage_rotati
         d->turn = 0;
 }
 
-static bool has(const struct cage_touch *touch, int32_t count, int32_t k, int32_t l)
-{
-    int32_t found = 0;
-    for (int32_t i = 0; i < count; i++)
-        found += touch[i].k == k && touch[i].l == l;
-    test_require(found <= 1);
-    return found == 1;
-}
-
-/* The components of the mixture tell which pairs share a point: neither more nor less. */
-static void check_pairs(const struct pair *c, const struct pair *d, const struct whole *mixture, const struct cage_touch *touch,
-                        int32_t count)
-{
-    static bool wanted[MOST][MOST];
-    int32_t pairs = 0;
-    memset(wanted, 0, sizeof wanted);
-    for (int32_t m = 0; m < mixture->c.count; m++) {
-        int32_t deep = mixture->c.deep[m], k = 0, l = 0;
-        if (m > 0) {
-            k = named(c, whole_label(&c->whole.t, c->whole.c.label, &mixture->t, deep));
-            l = named(d, whole_label(&d->whole.t, d->whole.c.label, &mixture->t, deep));
-        }
-        test_require(k >= 0 && l >= 0);
-        pairs += !wanted[k][l];
-        wanted[k][l] = true;
-    }
-    for (int32_t i = 0; i < count; i++) {
-        ck_assert_msg(wanted[touch[i].k][touch[i].l], "components %d and %d do not touch", (int)touch[i].k, (int)touch[i].l);
-        test_require(has(touch, count, touch[i].k, touch[i].l));
-    }
-    ck_assert_int_eq(pairs, count);
-}
-
 /* Every point off all balls is in a pair that was found. */
-static void check_points(const struct pair *c, const struct pair *d, const struct flood *grid, const struct cage_touch *touch,
+static void check_points(const struct glued *c, const struct glued *d, const struct flood *grid, const struct cage_touch *touch,
                          int32_t count)
 {
     int32_t at_c = 0, at_d = 0;
     for (int32_t cell = 0; cell < grid->cells; cell++) {
         int32_t x[3];
         flood_centre(grid, cell, x);
-        int32_t k = named(c, whole_locate(&c->whole, x, &at_c)), l = named(d, whole_locate(&d->whole, x, &at_d));
-        test_require(k < 0 || l < 0 || has(touch, count, k, l));
+        int32_t k = glued_locate(c, x, &at_c), l = glued_locate(d, x, &at_d);
+        test_require(k < 0 || l < 0 || glued_has(touch, count, k, l));
     }
 }
 
-static int32_t check_touches(const struct pair *c, const struct pair *d, const struct cage_touch *touch, int32_t count, int32_t mixed)
+static int32_t check_touches(const struct glued *c, const struct glued *d, const struct cage_touch *touch, int32_t count, int32_t mixed)
 {
     int32_t thin = 0, at_c = 0, at_d = 0;
     for (int32_t i = 0; i < count; i++) {
-        int32_t k = named(c, whole_locate(&c->whole, touch[i].x, &at_c)), l = named(d, whole_locate(&d->whole, touch[i].x, &at_d));
+        int32_t k = glued_locate(c, touch[i].x, &at_c), l = glued_locate(d, touch[i].x, &at_d);
         bool both = k == touch[i].k && l == touch[i].l;
         test_require(both || mixed);
         thin += !both;
@@ -202,7 +135,7 @@ static void check_transposed(const struct cage_touch *touch, int32_t count, cons
 {
     ck_assert_int_eq(count, others);
     for (int32_t i = 0; i < count; i++)
-        test_require(has(other, others, touch[i].l, touch[i].k));
+        test_require(glued_has(other, others, touch[i].l, touch[i].k));
 }
 
 /* Rows and columns of cells enough, whatever the scene's size; the fill itself is not needed. */
@@ -220,28 +153,29 @@ static int32_t pitch_of(const struct whole *w, int32_t across)
 
 START_TEST(glues_what_touches)
 {
-    int32_t rounds = test_rounds(500), mixtures = 0, pairs = 0, thin = 0, several = 0;
+    static bool wanted[GLUED_MOST][GLUED_MOST];
+    int32_t rounds = test_rounds(500), mixtures = 0, pairs = 0, thin = 0, several = 0, seeded = 0;
     for (int32_t seed = 0; seed < rounds; seed++) {
         int32_t sign = seed & 1 ? 1 : -1, count, others, mixed, mixed_back;
         uint64_t state = (uint64_t)seed;
         struct cage_rotations at[2];
-        struct pair c, d;
+        struct glued c, d;
         struct whole mixture;
         struct flood grid;
         struct cage_touch *touch, *other;
         world_make((uint64_t)seed, sign);
         choose(&state, &at[0], &at[1]);
-        make(&at[0], &c);
-        make(&at[1], &d);
+        glued_make(&world.arena, &world.side, &at[0], &c);
+        glued_make(&world.arena, &world.side, &at[1], &d);
         whole_mix(&c.whole, &d.whole, &mixture);
         flood_make(&grid, 2, mixture.ball, mixture.count, pitch_of(&mixture, 32));
-        name_components(&c);
-        name_components(&d);
         check_slice(&c, &grid);
         check_slice(&d, &grid);
-        ck_assert_int_eq(cage_glue(&world.arena, &c.slice, &d.slice, &touch, &count, &mixed), CAGE_OK);
-        ck_assert_int_eq(cage_glue(&world.arena, &d.slice, &c.slice, &other, &others, &mixed_back), CAGE_OK);
-        check_pairs(&c, &d, &mixture, touch, count);
+        ck_assert_int_eq(cage_glue(&world.arena, &c.slice, &d.slice, CAGE_ALL, &touch, &count, &mixed), CAGE_OK);
+        ck_assert_int_eq(cage_glue(&world.arena, &d.slice, &c.slice, CAGE_ALL, &other, &others, &mixed_back), CAGE_OK);
+        glued_check(touch, count, wanted, glued_pairs(&c, &d, &mixture, wanted));
+        seeded += glued_check_seeds(&world.arena, &c.slice, &d.slice, touch, count);
+        seeded += glued_check_seeds(&world.arena, &d.slice, &c.slice, other, others);
         check_points(&c, &d, &grid, touch, count);
         thin += check_touches(&c, &d, touch, count, mixed) + check_touches(&d, &c, other, others, mixed_back);
         check_transposed(touch, count, other, others);
@@ -250,12 +184,12 @@ START_TEST(glues_what_touches)
         several += count > 1;
         flood_free(&grid);
         whole_free(&mixture);
-        whole_free(&c.whole);
-        whole_free(&d.whole);
+        glued_free(&c);
+        glued_free(&d);
         free(world.block);
     }
-    printf("glue: %d gluings, %d pairs, %d of them more than one, %d by a mixture, %d points of components thinner than the grid\n",
-           (int)(2 * rounds), (int)pairs, (int)several, (int)mixtures, (int)thin);
+    printf("glue: %d gluings, %d pairs, %d of them more than one, %d by a mixture, %d points of components thinner than the grid, %d pairs by seeds\n",
+           (int)(2 * rounds), (int)pairs, (int)several, (int)mixtures, (int)thin, (int)seeded);
     ck_assert(several > rounds / 10);
 }
 END_TEST
@@ -264,21 +198,21 @@ END_TEST
 START_TEST(memory_sweep)
 {
     struct cage_rotations at[2];
-    struct pair p[2];
+    struct glued p[2];
     struct cage_touch *touch, *again;
     int32_t count, mixed, counted, enough = 0;
     uint64_t state = 3;
     world_make(7 + (uint64_t)_i, -1);
     choose(&state, &at[0], &at[1]);
-    make(&at[0], &p[0]);
-    make(&at[1], &p[1]);
-    ck_assert_int_eq(cage_glue(&world.arena, &p[0].slice, &p[1].slice, &touch, &count, &mixed), CAGE_OK);
+    glued_make(&world.arena, &world.side, &at[0], &p[0]);
+    glued_make(&world.arena, &world.side, &at[1], &p[1]);
+    ck_assert_int_eq(cage_glue(&world.arena, &p[0].slice, &p[1].slice, CAGE_ALL, &touch, &count, &mixed), CAGE_OK);
     size_t most = 4096 * (size_t)(p[0].slice.t.sites + p[1].slice.t.sites);
     void *block = test_alloc(most);
     for (size_t bytes = 0; bytes < most && enough < 3; bytes += bytes / 16 + 8) {
         struct cage_arena arena;
         cage_arena_init(&arena, block, bytes);
-        int32_t error = cage_glue(&arena, &p[0].slice, &p[1].slice, &again, &counted, &mixed);
+        int32_t error = cage_glue(&arena, &p[0].slice, &p[1].slice, CAGE_ALL, &again, &counted, &mixed);
         test_require(error == CAGE_OK || (error == CAGE_ERROR_MEMORY && enough == 0 && arena.used == 0));
         if (error != CAGE_OK)
             continue;
@@ -287,8 +221,8 @@ START_TEST(memory_sweep)
     }
     ck_assert_int_eq(enough, 3);
     free(block);
-    whole_free(&p[0].whole);
-    whole_free(&p[1].whole);
+    glued_free(&p[0]);
+    glued_free(&p[1]);
     free(world.block);
 }
 END_TEST

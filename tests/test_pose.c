@@ -223,18 +223,15 @@ START_TEST(the_range_is_as_promised)
             const cage_scene s = scene_of(dim, y, 2, &x, 1);
             ck_assert_int_eq(cage_scene_check(&s), more ? CAGE_ERROR_RANGE : CAGE_OK);
         }
-    /* space has collisions, but no proofs yet */
     const cage_scene space = scene_of(3, &unit, 1, &away, 1);
     ck_assert_int_eq(cage_scene_check(&space), CAGE_OK);
-    ck_assert_int_eq(begin(&space, &origin, NULL, NULL), CAGE_ERROR_DIMENSION);
+    ck_assert_int_eq(begin(&space, &origin, NULL, NULL), CAGE_OK);
 }
 END_TEST
 
 static void expect_pose(const cage_scene *s, const cage_pose *pose, int32_t error)
 {
     ck_assert_int_eq(cage_collides(s, pose, CAGE_SIDE_OUTER), error);
-    if (s->dim == 3)
-        return;
     ck_assert_int_eq(begin(s, pose, NULL, NULL), error);
     ck_assert_int_eq(begin(s, &origin, pose, NULL), pose ? error : CAGE_OK);
 }
@@ -278,14 +275,46 @@ START_TEST(limit_errors)
     cage_limits good;
     cage_limits_default(&good, 2);
     ck_assert_int_eq(begin(&s, &origin, NULL, &good), CAGE_OK);
-    for (int k = 0; k < 10; k++) {
-        cage_limits bad = good;
-        bad.side = k == 0 ? 0 : k == 1 ? 4 : k == 2 ? -1 : bad.side;
-        bad.max_level = k == 3 ? -1 : k == 4 ? CAGE_LEVEL_MAX_2D + 1 : bad.max_level;
-        bad.start_level = k == 5 ? -2 : k == 6 ? bad.max_level + 1 : bad.start_level;
-        bad.max_cells = k == 7 ? 1 : k == 8 ? 0 : k == 9 ? INT32_MIN : bad.max_cells;
-        ck_assert_int_eq(begin(&s, &origin, NULL, &bad), CAGE_ERROR_ARGUMENT);
-        ck_assert_uint_eq(cage_prove_size(&s, &bad), 0);
+    static const struct {
+        int32_t low, high; /* the values allowed */
+    } range[4] = {{CAGE_SIDE_INNER, CAGE_SIDE_BOTH}, {-1, 12}, {0, CAGE_LEVEL_MAX_2D}, {2, 1 << 24}};
+    ck_assert_int_eq(good.max_level, range[1].high);
+    for (int k = 0; k < 4; k++) {
+        const int32_t low = range[k].low, high = range[k].high;
+        const int32_t value[8] = {low, high, low - 1, high + 1, low - 2, high + 100, INT32_MIN, INT32_MAX};
+        for (int at = 0; at < 8; at++) {
+            cage_limits some = good;
+            int32_t *const of[4] = {&some.side, &some.start_level, &some.max_level, &some.max_cells};
+            *of[k] = value[at];
+            ck_assert((cage_prove_size(&s, &some) > 0) == (at < 2));
+            if (at >= 2)
+                ck_assert_int_eq(begin(&s, &origin, NULL, &some), CAGE_ERROR_ARGUMENT);
+        }
+    }
+    for (int32_t most = 0; most <= CAGE_LEVEL_MAX_2D; most++) { /* the cells begin no finer than they may become */
+        cage_limits some = good;
+        some.max_level = most;
+        some.max_cells = 1 << 24;
+        some.start_level = most + 1;
+        ck_assert_int_eq(begin(&s, &origin, NULL, &some), CAGE_ERROR_ARGUMENT);
+        ck_assert_uint_eq(cage_prove_size(&s, &some), 0);
+        some.start_level = most;
+        ck_assert_uint_gt(cage_prove_size(&s, &some), 0);
+    }
+    /* all cells down to the start level have to be allowed: 2 (2^(n+1) - 1) in the plane, 4 (8^(n+1) - 1) / 7 in space */
+    const cage_scene space = scene_of(3, &unit, 1, &away, 1);
+    for (int32_t level = 0, cells[2] = {2, 4}; level < 6; level++) {
+        for (int32_t dim = 2; dim <= 3; dim++) {
+            cage_limits some = good;
+            some.start_level = some.max_level = level;
+            for (some.max_cells = cells[dim - 2] - 1; some.max_cells <= cells[dim - 2]; some.max_cells++) {
+                bool enough = some.max_cells == cells[dim - 2];
+                ck_assert((cage_prove_size(dim == 2 ? &s : &space, &some) > 0) == enough);
+                ck_assert_int_eq(begin(dim == 2 ? &s : &space, &origin, NULL, &some), enough ? CAGE_OK : CAGE_ERROR_ARGUMENT);
+            }
+        }
+        cells[0] = 2 * cells[0] + 2;
+        cells[1] = 8 * cells[1] + 4;
     }
     unsigned char small[16];
     cage_proof *proof = NULL;

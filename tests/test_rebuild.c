@@ -86,7 +86,7 @@ static int32_t glue_all(struct cage_arena *arena, const struct cage_proof *proof
             struct cage_touch *touch;
             int32_t count, mixed;
             size_t mark = arena->used;
-            ck_assert_int_eq(cage_glue(arena, &graph.slice[i], &graph.slice[j], &touch, &count, &mixed), CAGE_OK);
+            ck_assert_int_eq(cage_glue(arena, &graph.slice[i], &graph.slice[j], CAGE_ALL, &touch, &count, &mixed), CAGE_OK);
             for (int32_t e = 0; e < count; e++) {
                 int32_t a = root_of(graph.first[i] + touch[e].k), b = root_of(graph.first[j] + touch[e].l);
                 graph.group[a > b ? a : b] = a > b ? b : a;

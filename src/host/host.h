@@ -70,6 +70,7 @@ typedef struct host_answer {
     const cage_result *result;
     cage_proof *proof;
     double seconds;
+    const struct picture_cloud *cloud; /* in space: where the pivot can be, null where it was not looked for (picture.h) */
 } host_answer;
 
 /* ---- number.c --------------------------------------------------------------------------------- */
@@ -116,6 +117,9 @@ void host_report_json(FILE *out, const host_answer *answer);
 
 /* ---- svg.c -------------------------------------------------------------------------------------- */
 int host_write_svg(const char *path, const host_answer *answer, host_error *error);
+
+/* ---- ply.c, in space only ------------------------------------------------------------------------ */
+int host_write_ply(const char *path, const host_answer *answer, host_error *error);
 
 /* ---- prove_command.c --------------------------------------------------------------------------- */
 int host_prove(int argc, char **argv);

@@ -1,27 +1,30 @@
 /* prove_command.c: "cage prove": options in, one proof, the answer out as text, JSON and picture. */
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
 
-#include "host.h"
+#include "picture.h"
 
 #define MIB ((size_t)1 << 20)
 #define FIRST_BLOCK (256 * MIB) /* taken where --memory is not given */
 #define LARGEST_BLOCK (SIZE_MAX / MIB > 4096 ? 4096 * MIB : SIZE_MAX / 2) /* it grows to this */
 #define STEPS_A_TURN 32         /* between two looks at the clock */
+#define MOST_CELLS (1 << 24)    /* that the library takes as a limit */
 
 typedef struct options {
-    const char *object, *obstacles, *start, *goal, *svg;
+    const char *object, *obstacles, *start, *goal, *svg, *ply;
     const char *side, *max_level, *max_cells, *memory, *unit;
     int json, quiet;
 } options;
 
 void host_prove_help(FILE *out)
 {
-    cage_limits limits;
+    cage_limits plane, space;
 
-    cage_limits_default(&limits, 2);
+    cage_limits_default(&plane, 2);
+    cage_limits_default(&space, 3);
     (void)fprintf(out,
         "usage: cage prove --object FILE --obstacles FILE --start POSE [--goal POSE] [OPTIONS]\n"
         "\n"
@@ -42,21 +45,25 @@ void host_prove_help(FILE *out)
         "\n"
         "  FILE has one ball a line, \"x y r\" in the plane or \"x y z r\" in space, separated by white\n"
         "  space or commas; # starts a comment. POSE is x,y,degrees in the plane (counter-clockwise) or\n"
-        "  x,y,z,qw,qx,qy,qz in space: the object's point p goes to R p + (x,y). Balls may touch.\n"
-        "  Proofs are in the plane only in this version.\n"
+        "  x,y,z,qw,qx,qy,qz in space (a quaternion of any length): the object's point p goes to R p plus\n"
+        "  (x,y) or (x,y,z). Balls may touch.\n"
         "\n");
     (void)fprintf(out,
         "options:\n"
         "  --side both|inner|outer  look for a proof of CAGED or DISCONNECTED (inner), for a path (outer),\n"
         "                           or for whichever exists (both, the default)\n"
-        "  --max-level N   finest cells of rotations, 0 to %d: level N has 2^(N+1) cells (default %ld)\n"
-        "  --max-cells N   cells made at most (default %ld)\n"
+        "  --max-level N   finest cells of rotations. In the plane 0 to %d (default %ld): level N has 2^(N+1)\n"
+        "                  cells; in space 0 to %d (default %ld): 4 * 8^N\n"
+        "  --max-cells N   cells made at most, up to %d (default %ld in the plane, %ld in space)\n"
         "  --memory BYTES  one block of this size and no more; K, M and G mean 1024, 1024^2, 1024^3.\n"
         "                  Without it the block is 256M, and grows to 4G when the proof needs it\n"
         "  --unit U        length of a grid unit (default: the finest power of two at which the scene\n"
         "                  fits). Balls between grid points are rounded to the safe side\n"
         "  --json          print one JSON object instead of text\n"
-        "  --svg FILE      draw the answer: the region that the object's pivot can reach, or its path\n"
+        "  --svg FILE      draw the answer: the region that the object's pivot can reach, or its path; in space\n"
+        "                  from above, from the front and from the right\n"
+        "  --ply FILE      in space: the same as a mesh with colours (ASCII PLY), which any viewer opens: obstacles\n"
+        "                  grey, start blue, goal orange, path from violet to yellow, region as green dots\n"
         "  --quiet         text: the verdict only; no progress, no warnings\n"
         "  --help          this text\n"
         "\n"
@@ -72,8 +79,11 @@ void host_prove_help(FILE *out)
         "\n"
         "example:\n"
         "  cage prove --object examples/walls/plus.xyzr --obstacles examples/walls/walls_R4.xyzr \\\n"
-        "             --start 185,195,45 --svg chamber.svg\n",
-        CAGE_LEVEL_MAX_2D, (long)limits.max_level, (long)limits.max_cells);
+        "             --start 185,195,45 --svg chamber.svg\n"
+        "  cage prove --object examples/space/mug.xyzr --obstacles examples/space/hook.xyzr \\\n"
+        "             --start 0,0,0,1,0,0,0 --ply mug.ply\n",
+        CAGE_LEVEL_MAX_2D, (long)plane.max_level, CAGE_LEVEL_MAX_3D, (long)space.max_level, MOST_CELLS, (long)plane.max_cells,
+        (long)space.max_cells);
 }
 
 /* ---- options -------------------------------------------------------------------------------------- */
@@ -90,6 +100,7 @@ static const char **value_slot(options *given, const char *name, size_t length)
         { "--svg", &given->svg },             { "--side", &given->side },
         { "--max-level", &given->max_level }, { "--max-cells", &given->max_cells },
         { "--memory", &given->memory },       { "--unit", &given->unit },
+        { "--ply", &given->ply },
     };
     size_t i;
 
@@ -141,6 +152,7 @@ static int blame(host_error *error, const char *option, int code)
 
 static int read_limits(const options *given, int32_t dim, cage_limits *limits, host_error *error)
 {
+    const int32_t finest = dim == 2 ? CAGE_LEVEL_MAX_2D : CAGE_LEVEL_MAX_3D, fewest = dim == 2 ? 2 : 4; /* cells of level 0 */
     int code = HOST_OK;
 
     cage_limits_default(limits, dim);
@@ -153,10 +165,10 @@ static int read_limits(const options *given, int32_t dim, cage_limits *limits, h
         return host_fail(error, HOST_BAD_INPUT, "--side: '%.100s' is none of both, inner, outer", given->side);
     if (given->max_level != NULL)
         code = blame(error, "--max-level",
-                     host_parse_integer(given->max_level, 0, CAGE_LEVEL_MAX_2D, &limits->max_level, error));
+                     host_parse_integer(given->max_level, 0, finest, &limits->max_level, error));
     if (code == HOST_OK && given->max_cells != NULL)
         code = blame(error, "--max-cells",
-                     host_parse_integer(given->max_cells, 2, INT32_MAX, &limits->max_cells, error));
+                     host_parse_integer(given->max_cells, fewest, MOST_CELLS, &limits->max_cells, error));
     return code;
 }
 
@@ -202,6 +214,18 @@ static void warn_empty(const options *given, const host_query *query)
         (void)fprintf(stderr, "cage: warning: %s has no balls\n", given->object);
     if (query->obstacles.count == 0)
         (void)fprintf(stderr, "cage: warning: %s has no balls\n", given->obstacles);
+}
+
+/* Better before a long proof than after it. */
+static int check_writable(const char *option, const char *path, host_error *error)
+{
+    FILE *file = path != NULL ? fopen(path, "a") : NULL;
+
+    if (path != NULL && file == NULL)
+        return host_fail(error, HOST_BAD_INPUT, "%s: %.600s cannot be written: %.200s", option, path, strerror(errno));
+    if (file != NULL)
+        (void)fclose(file);
+    return HOST_OK;
 }
 
 /* ---- the proof ------------------------------------------------------------------------------------ */
@@ -303,12 +327,30 @@ static int check_path(const host_answer *answer, host_error *error)
                      "the path found does not pass the independent check. This is a bug; please report the input");
 }
 
-static int show_answer(const options *given, const host_answer *answer, host_error *error)
+/* Pictures in space show where the pivot stays; it is looked for once. No memory for it is no error. */
+static int draw(const options *given, host_answer *answer, host_error *error)
+{
+    picture_cloud cloud = { { 0, 0, 0 }, 1, { 0, 0, 0 }, NULL };
+    int code = HOST_OK;
+
+    if (answer->query->dim == 3 && picture_stuck(answer->result) && (given->svg != NULL || given->ply != NULL) &&
+        picture_find_cloud(answer, &cloud) == 0)
+        answer->cloud = &cloud;
+    if (given->svg != NULL)
+        code = host_write_svg(given->svg, answer, error);
+    if (code == HOST_OK && given->ply != NULL)
+        code = host_write_ply(given->ply, answer, error);
+    answer->cloud = NULL;
+    free(cloud.mask);
+    return code;
+}
+
+static int show_answer(const options *given, host_answer *answer, host_error *error)
 {
     int code = check_path(answer, error);
 
-    if (code == HOST_OK && given->svg != NULL)
-        code = host_write_svg(given->svg, answer, error);
+    if (code == HOST_OK)
+        code = draw(given, answer, error);
     if (code != HOST_OK)
         return code;
     if (given->json)
@@ -335,6 +377,12 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
         code = blame(error, "--memory", host_parse_bytes(given->memory, &bytes, error));
     if (code == HOST_OK)
         code = read_query(given, query, error);
+    if (code == HOST_OK && given->ply != NULL && query->dim != 3)
+        code = host_fail(error, HOST_BAD_INPUT, "--ply: a mesh is of a scene in space, and this one is in the plane (see --svg)");
+    if (code == HOST_OK)
+        code = check_writable("--svg", given->svg, error);
+    if (code == HOST_OK)
+        code = check_writable("--ply", given->ply, error);
     if (code == HOST_OK)
         code = read_limits(given, query->dim, &limits, error);
     if (code == HOST_OK)

@@ -85,6 +85,14 @@ static void print_side(FILE *out, const cage_result *result, int side)
                   (long)result->mixtures[side], (long)result->reached[side]);
 }
 
+/* The turn, in degrees, from the middle of a cell in space to the farthest rotation of any cell of that level. */
+static double largest_turn(int level)
+{
+    static const double coarse[] = { 120, 71.6, 39.3, 20 };
+
+    return level < 3 ? coarse[level] : ldexp(coarse[3], 3 - level);
+}
+
 static void print_work(FILE *out, const host_answer *answer)
 {
     const cage_result *result = answer->result;
@@ -96,6 +104,8 @@ static void print_work(FILE *out, const host_answer *answer)
                   (long)result->level);
     if (answer->query->dim == 2)
         (void)fprintf(out, " (about %.2g degrees wide)", ldexp(180, -(int)result->level));
+    else
+        (void)fprintf(out, " (within %.3g degrees of its middle)", largest_turn((int)result->level));
     (void)fprintf(out, "\n");
     for (side = 0; side < 2; side++)
         if (result->slices[side] > 0)

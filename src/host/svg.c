@@ -1,4 +1,4 @@
-/* svg.c: the picture of an answer: frame, title, legend and scale around a scene in the plane or three views. */
+/* svg.c: the picture of an answer: frame, title, legend and scale around a scene in the plane or three views of space. */
 #include <errno.h>
 #include <math.h>
 #include <string.h>
@@ -124,27 +124,19 @@ static void write_scale(FILE *out, const svg_canvas *canvas, double x, double y)
 static void write_svg(FILE *out, const host_answer *answer)
 {
     const int space = answer->query->dim == 3;
-    svg_canvas canvas[3];
-    svg_box box[3];
-    double height, width = WIDTH - 2 * MARGIN, used = 0, y;
-    int views = space ? 3 : 1, i;
+    svg_canvas canvas[SVG_VIEWS];
+    svg_box box;
+    double height, y;
 
-    for (i = 0; i < views; i++) {
-        if (space)
-            svg_space_box(answer, i, &box[i]);
-        else
-            svg_plane_box(answer, &box[i]);
-        height = svg_fit(&canvas[i], &box[i], MARGIN + i * width / views, TITLE,
-                         width / views - (space ? 10 : 0), LARGEST);
-        used = fmax(used, fmax(height, SMALLEST));
+    if (space) {
+        height = svg_space_fit(canvas, answer, MARGIN, TITLE, WIDTH - 2 * MARGIN, LARGEST);
+    } else {
+        svg_plane_box(answer, &box);
+        height = fmax(SMALLEST, svg_fit(&canvas[0], &box, MARGIN, TITLE, WIDTH - 2 * MARGIN, LARGEST));
     }
-    y = TITLE + used + LEGEND / 2;
-    write_head(out, answer, TITLE + used + LEGEND);
-    for (i = 0; i < views; i++)
-        if (space)
-            svg_space(out, &canvas[i], answer, i);
-        else
-            svg_plane(out, &canvas[i], answer, MARGIN + 6, y);
+    y = TITLE + height + LEGEND / 2;
+    write_head(out, answer, TITLE + height + LEGEND);
+    (space ? svg_space : svg_plane)(out, canvas, answer, MARGIN + 6, y);
     write_scale(out, &canvas[0], WIDTH - MARGIN, y);
     (void)fprintf(out, "</svg>\n");
 }

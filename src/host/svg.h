@@ -43,8 +43,10 @@ void svg_path_line(FILE *out, const svg_canvas *canvas, const host_answer *answe
 void svg_object(FILE *out, const svg_canvas *canvas, const char *style, const double origin[2], double degrees);
 
 /* ---- svg_space.c -------------------------------------------------------------------------------- */
-/* View 0 along z, 1 along y, 2 along x. */
-void svg_space_box(const host_answer *answer, int view, svg_box *box);
-void svg_space(FILE *out, const svg_canvas *canvas, const host_answer *answer, int view);
+#define SVG_VIEWS 3
+/* Three views of one scale, side by side in an area that wide; returns how high they are, most at most but for their labels. */
+double svg_space_fit(svg_canvas canvas[SVG_VIEWS], const host_answer *answer, double x, double y, double width, double most);
+/* The scene, and its legend from (x, y) to the right. */
+void svg_space(FILE *out, const svg_canvas canvas[SVG_VIEWS], const host_answer *answer, double x, double y);
 
 #endif

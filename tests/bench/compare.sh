@@ -27,7 +27,7 @@ while [ "$set" -le "$last" ]; do
         { ours[NR] = $5; peer[NR] = $12; ratio[NR] = $5 / $12; name = $1; dim = $2; balls = $3
           simplices = $6 / $13; vertices = $7 / $14 }
         END {
-            slack = name == "lattice" ? 0.25 : 0.05
+            slack = name == "lattice" ? 0.25 : dim == 3 ? 0.1 : 0.05
             agree = simplices > 1 - slack && simplices < 1 + slack && vertices > 0.98 && vertices < 1.02
             printf "%-8s %3d %7d %10.1f %10.1f %7.3f  %.3f, %.4f%s\n", name, dim, balls, median(ours, NR), median(peer, NR),
                    median(ratio, NR), simplices, vertices, agree ? "" : "  DISAGREES"

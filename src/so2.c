@@ -1,10 +1,12 @@
-/* fibre: the compact factor of configuration space, cut into a tree of closed cells: SO(2).
+/* so2: the rotations of the plane as a fibre: arcs of the circle of half angles.
  *
  * Half angles modulo 180 degrees, as quaternions (w, z) on two faces of the square max(|w|, |z|) = 1: w = 1 and z = 1 (turned by 90
  * degrees of half angle). On a face runs t in [-1, 1], taken to t (|t| + 2) / 3 so that cells of one level turn by nearly
  * the same angle. Along the circle the cells of level L are numbered 0..2^(L+1) - 1. */
 #include "fibre.h"
 #include "grid.h"
+
+#include <stddef.h>
 
 enum { MAX_LEVEL = 14, CIRCLE = 2 << MAX_LEVEL };
 
@@ -85,4 +87,4 @@ static void common(const struct cage_cell *a, const struct cage_cell *b, int32_t
     cell_rotation(a, around(b_first - first) == length ? 2 : 0, q);
 }
 
-const struct cage_fibre cage_so2 = {2, 2, MAX_LEVEL, child, touch, contains, representative, turn, common};
+const struct cage_fibre cage_so2 = {2, 2, MAX_LEVEL, child, touch, contains, representative, turn, NULL, common};

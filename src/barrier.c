@@ -1,0 +1,206 @@
+/* barrier: proofs that a component of one slice and one of its neighbour are apart, or share a point.
+ *
+ * K of slice c and L of slice d touch if a known grid point of one lies in the other.
+ *
+ * They are apart, if so proved: let every vertex of the triangulation of c move on a straight line to where it is in d, its power
+ * function interpolated likewise, so that each ball on the way lies in the union of the one that it comes from and the one
+ * that it goes to. A facet or full simplex is solid if at every time it lies in the union of its own balls. Let R be
+ * the union of the full simplices reached from those labelled K without crossing a solid facet or entering a solid simplex, S its
+ * border. K lies in R (location lemma). A point of K off d is never met by the moving border, so it has the same
+ * winding number (modulo 2) about S and about S', which is S arrived in d. S' lies in the balls of d, so all of L has one
+ * number, and where a point of L has another, K and L are apart. A point of L that the moving border does not meet
+ * either has the other iff it is off R. R extends beyond the sentinels' simplex iff it holds a simplex with a sentinel (then
+ * it holds all of these), and the outside of d always does. */
+#include "barrier.h"
+#include "grid.h"
+
+/* How a part moves. */
+struct cage_motion {
+    int64_t moved[3];
+    int64_t quarter; /* |moved|^2 / 4, rounded up: the most that interpolated weights sag below the smaller one */
+    int32_t grow;    /* radius in d minus radius in c */
+};
+
+enum { NO_POINT = -1, UNKNOWN_HOME = -2 };
+
+int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, struct cage_view *view)
+{
+    struct cage_view made = {c, d, NULL, NULL, NULL, NULL, NULL, NULL, 0, CAGE_COVERED, false};
+    made.motion = cage_arena_take(arena, (size_t)c->parts, sizeof *made.motion);
+    made.reached = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.reached);
+    made.stack = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.stack);
+    made.solid = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.solid);
+    made.home = cage_arena_take(arena, (size_t)d->regions, sizeof *made.home);
+    made.off = cage_arena_take(arena, (size_t)d->regions, sizeof *made.off);
+    if (!made.motion || !made.reached || !made.stack || !made.solid || !made.home || !made.off)
+        return CAGE_ERROR_MEMORY;
+    for (int32_t a = 0; a < c->parts; a++) {
+        struct cage_motion *motion = &made.motion[a];
+        int64_t square = 0; /* |moved| < 2 |y| + 2: < 2^58 */
+        for (int32_t i = 0; i < 3; i++) {
+            motion->moved[i] = (int64_t)c->part[a].at[i] - d->part[a].at[i];
+            square += motion->moved[i] * motion->moved[i];
+        }
+        motion->quarter = (square + 3) / 4;
+        motion->grow = d->part[a].change - c->part[a].change;
+    }
+    for (int32_t s = 0; s < c->t.simplices; s++)
+        made.reached[s] = 0;
+    for (int32_t s = 0; s < c->t.simplices; s++)
+        made.solid[s] = -1;
+    for (int32_t l = 0; l < d->regions; l++) {
+        made.home[l] = d->region[l].known ? UNKNOWN_HOME : NO_POINT;
+        made.off[l] = -1;
+    }
+    *view = made;
+    return CAGE_OK;
+}
+
+/* Least weight of a site on its way, less what interpolation takes; -1: it is a sentinel, or there is no such ball in d. */
+static int64_t weight_of(const struct cage_view *view, int32_t site)
+{
+    const struct cage_triangulation *t = &view->c->t;
+    if (site <= t->dim)
+        return -1;
+    const struct cage_motion *m = &view->motion[t->ball[site]];
+    int64_t r = t->site[site].r, other = r + m->grow, least = r < other ? r : other;
+    return least < 0 ? -1 : least * least - m->quarter;
+}
+
+/* Greatest squared distance of two sites on their way: at one end of it. Differences < 2^29 in the plane, 2^24 in space. */
+static int64_t square_of(const struct cage_view *view, int32_t a, int32_t b)
+{
+    const struct cage_triangulation *t = &view->c->t;
+    const struct cage_motion *am = &view->motion[t->ball[a]], *bm = &view->motion[t->ball[b]];
+    int64_t e[3], here = 0, there = 0;
+    cage_difference(&t->site[a], &t->site[b], e);
+    for (int32_t n = 0; n < 3; n++) {
+        int64_t f = e[n] + am->moved[n] - bm->moved[n];
+        here += e[n] * e[n];
+        there += f * f;
+    }
+    return here > there ? here : there;
+}
+
+/* Is the facet that lacks vertex i, or in the plane (i = 3) the triangle, solid? */
+static bool is_solid_facet(const struct cage_view *view, int32_t s, int32_t i)
+{
+    const struct cage_triangulation *t = &view->c->t;
+    int32_t v[3] = {0, 0, 0}, count = 0;
+    int64_t square[3], weight[3];
+    for (int32_t k = 0; k <= t->dim; k++)
+        if (k != i) {
+            v[count] = t->simplex[s].v[k];
+            weight[count] = weight_of(view, v[count]);
+            if (weight[count++] < 0)
+                return false;
+        }
+    for (int32_t k = 0; k < (count == 2 ? 1 : 3); k++)
+        square[k] = square_of(view, v[(k + 1) % count], v[(k + 2) % count]);
+    return cage_edges_covered(count, square, weight);
+}
+
+static bool is_solid(struct cage_view *view, int32_t s)
+{
+    const struct cage_simplex *simplex = &view->c->t.simplex[s];
+    int64_t square[4][4], weight[4];
+    if (view->solid[s] >= 0)
+        return view->solid[s];
+    view->solid[s] = 0;
+    if (view->c->label[s] != CAGE_COVERED)
+        return false;
+    if (view->c->t.dim == 2) {
+        view->solid[s] = is_solid_facet(view, s, 3);
+        return view->solid[s];
+    }
+    for (int32_t i = 0; i < 4; i++) {
+        weight[i] = weight_of(view, simplex->v[i]);
+        if (weight[i] < 0)
+            return false;
+        for (int32_t k = 0; k < i; k++)
+            square[i][k] = square[k][i] = square_of(view, simplex->v[i], simplex->v[k]);
+    }
+    view->solid[s] = cage_tetrahedron_covered(square, weight);
+    return view->solid[s];
+}
+
+/* Find R for component k. */
+static void spread(struct cage_view *view, int32_t k)
+{
+    const struct cage_triangulation *t = &view->c->t;
+    int32_t depth = 0, number = ++view->spreads;
+    view->from = k;
+    view->outer = false;
+    for (int32_t s = 0; s < t->simplices; s++)
+        if (view->c->label[s] == k) {
+            view->reached[s] = number;
+            view->stack[depth++] = s;
+        }
+    while (depth > 0) {
+        int32_t s = view->stack[--depth];
+        view->outer = view->outer || cage_simplex_outer(t, s);
+        if (view->outer && k != CAGE_OUTSIDE)
+            return; /* little would be told by what is left */
+        for (int32_t i = 0; i <= t->dim; i++) {
+            int32_t twin = t->simplex[s].twin[i];
+            if (twin == CAGE_HULL || view->reached[twin >> 2] == number || is_solid(view, twin >> 2) || is_solid_facet(view, s, i))
+                continue;
+            view->reached[twin >> 2] = number;
+            view->stack[depth++] = twin >> 2;
+        }
+    }
+}
+
+/* May the border of R, moving, meet the point? Only within a ball of a solid facet or of the solid simplex behind a facet. */
+static bool may_meet(const struct cage_view *view, const int32_t y[3])
+{
+    const struct cage_triangulation *t = &view->c->t;
+    for (int32_t s = 0; s < t->simplices; s++)
+        for (int32_t i = 0; view->reached[s] == view->spreads && i <= t->dim; i++) {
+            int32_t twin = t->simplex[s].twin[i];
+            if (twin == CAGE_HULL || view->reached[twin >> 2] == view->spreads)
+                continue;
+            for (int32_t n = 0; n <= t->dim; n++) /* sentinels never do */
+                if (cage_power(&t->site[t->simplex[twin >> 2].v[n]], y) <= 0)
+                    return true;
+        }
+    return false;
+}
+
+static bool is_off(struct cage_view *view, int32_t l)
+{
+    if (view->off[l] < 0)
+        view->off[l] = cage_slice_clear(view->c, view->d->region[l].point);
+    return view->off[l];
+}
+
+static bool is_apart(struct cage_view *view, int32_t k, int32_t l)
+{
+    if (view->from != k)
+        spread(view, k);
+    if (view->outer && (k != CAGE_OUTSIDE || l == CAGE_OUTSIDE))
+        return false;
+    if (l == CAGE_OUTSIDE)
+        return true;
+    return view->home[l] >= 0 && view->reached[view->home[l]] != view->spreads &&
+           (is_off(view, l) || !may_meet(view, view->d->region[l].point));
+}
+
+int32_t cage_view_decide(struct cage_view *view, int32_t k, int32_t l, int32_t x[3])
+{
+    const struct cage_region *a = &view->c->region[k], *b = &view->d->region[l];
+    const int32_t *point = NULL;
+    if (view->home[l] == UNKNOWN_HOME)
+        view->home[l] = cage_delaunay_locate(&view->c->t, b->point, 0);
+    if (is_apart(view, k, l))
+        return CAGE_APART;
+    if (k == CAGE_OUTSIDE && l == CAGE_OUTSIDE)
+        point = a->point[1] > b->point[1] ? a->point : b->point; /* above both bounding boxes */
+    else if (view->home[l] >= 0 && view->c->label[view->home[l]] == k && is_off(view, l))
+        point = b->point;
+    else if (a->known && cage_slice_locate(view->d, a->point) == l)
+        point = a->point;
+    for (int32_t i = 0; point && i < 3; i++)
+        x[i] = point[i];
+    return point ? CAGE_TOUCHING : CAGE_UNDECIDED;
+}

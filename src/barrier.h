@@ -1,0 +1,30 @@
+/* barrier: proofs that a component of one slice and one of its neighbour are apart, or share a point. */
+#ifndef CAGE_BARRIER_H
+#define CAGE_BARRIER_H
+
+#include "slice.h"
+
+struct cage_motion;
+
+/* Two slices of the same side of one scene, seen from the first. */
+struct cage_view {
+    const struct cage_slice *c, *d;
+    struct cage_motion *motion; /* of each part, from c to d */
+    int32_t *reached;           /* for each simplex of c: the last spread that reached it */
+    int32_t *stack;
+    int8_t *solid;    /* for each simplex of c: see barrier.c; -1: not known */
+    int32_t *home;    /* for each component of d: the simplex of c that holds its point; -1: it has none, -2: not looked for */
+    int8_t *off;      /* for each component of d: is its point off all balls of c? -1: not known */
+    int32_t spreads;  /* number of the last spread */
+    int32_t from;     /* the component it was of */
+    bool outer;       /* whether it reached a simplex with a sentinel; unless that component has some, it went no further */
+};
+
+int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, struct cage_view *view);
+
+enum { CAGE_UNDECIDED = 0, CAGE_APART = 1, CAGE_TOUCHING = 2 };
+
+/* Component k of c and l of d; best asked for all l of one k in turn. x becomes a common point if they touch. */
+int32_t cage_view_decide(struct cage_view *view, int32_t k, int32_t l, int32_t x[3]);
+
+#endif
