@@ -191,6 +191,7 @@ def pose_named(name, pose):
 # ---- space: things in shells -------------------------------------------------------------------------------
 
 def shell():
+    """No hole of the shell lets a ball of the guest out; holes of the sieve let it through, one ball after the other."""
     guest = [(-0.15, 0, 0, 0.1), (0.15, 0, 0, 0.1)]
     write("space/guest.xyzr", ["Two small balls, apart."], guest)
     closed = sphere(200, 2, 0.5)
@@ -205,6 +206,8 @@ def shell():
 
 
 def ell():
+    """One ball of the L alone cannot leave the closed pot. The open one has a mouth with room for a ball of
+    radius 0.4; the L has to show it its long leg first."""
     body = [(0, 0, 0, 0.3), (0.5, 0, 0, 0.3), (1, 0, 0, 0.3), (0, 0.5, 0, 0.3)]
     write("space/ell.xyzr", ["An L of four balls."], body)
     pose_named("in_pot", (-0.5, -0.25, 0) + HOME[3:])
@@ -215,7 +218,8 @@ def ell():
 
 
 def bank():
-    """A coin in a money box: a shell with a slot along x at its top, whose rims are rows of balls."""
+    """A coin in a money box: a shell with a slot along x at its top, whose rims are rows of balls. One ball of the coin alone cannot
+    pass the narrow slot; the coin as it lies passes the wide one straight up."""
     coin = [(0, 0, 0, 0.22)] + ring(6, 0.4, 0.22, 1)
     write("space/coin.xyzr", ["A thick coin: 1.24 across and 0.44 thick."], coin)
     for name, width in (("narrow", 0.2), ("wide", 0.8)):
@@ -270,12 +274,16 @@ def chambers():
 # ---- space: rings ----------------------------------------------------------------------------------------------
 
 def rings():
+    """Neighbouring balls overlap, so the circle through the centres stays inside the ring; two circles that are linked once stay
+    linked."""
     write("space/ring.xyzr", ["A ring in the xy-plane."], ring(16, 1, 0.25, 2))
     write("space/link.xyzr", ["A ring in the xz-plane, around (1, 0, 0)."], ring(16, 1, 0.25, 1, (1, 0, 0)))
     pose_named("unlinked", (4, 0, 0) + HOME[3:])
 
 
 def dumbbell():
+    """No point of the hoop's disc is more than 0.7 from one of its centres, and 0.7 < 0.25 + 0.6: the centre of a large end cannot
+    cross the disc, so one end stays on each side, with the bar between them. Small ends fit: 0.3 < 0.45."""
     for name, r in (("large", 0.6), ("small", 0.3)):
         write("space/dumbbell_%s.xyzr" % name, ["A dumbbell, its ends of radius %g." % r],
               [(-1, 0, 0, r), (1, 0, 0, r)] + bar((-1, 0, 0), (1, 0, 0), 0.2, 0.25)[1:-1])
@@ -283,7 +291,8 @@ def dumbbell():
 
 
 def mug():
-    """The handle runs around (1.15, 0, 0) in the xz-plane; the hook passes through it along y."""
+    """The handle runs around (1.1, 0, 0) in the xz-plane, and closes a circle with the cup. The eye is a circle that is linked with
+    it; the hook is the lower part of that circle, and the mug comes off in a turn about its centre (or otherwise)."""
     cup = ring(8, 0.7, 0.3, 2, (0, 0, -0.25)) + ring(8, 0.7, 0.3, 2, (0, 0, 0.25)) + [(0, 0, -0.35, 0.45)]
     handle = ring(13, 0.6, 0.12, 1, (1.1, 0, 0), math.radians(-35), math.radians(215))
     write("space/mug.xyzr", ["A mug with a handle."], cup + handle)
@@ -292,6 +301,12 @@ def mug():
     hook = (ring(18, 0.9, 0.12, 0, (1.3, 0, 0.9), math.radians(-190), math.radians(10)) +
             bar((1.3, 0.886, 1.2), (1.3, 0.886, 2.2), 0.12, 0.2))
     write("space/hook.xyzr", ["A hook through the handle, open at its tip."], hook)
+    axis = (0, 0, 0.9)
+    way = []
+    for degrees in range(0, 121, 2):  # about the line along x through the hook's centre
+        at = turned(about(0, -degrees), (0, 0, -0.9, 0))
+        way.append(tuple(at[k] + axis[k] for k in range(3)) + about(0, -degrees))
+    check_way(way, cup + handle, hook, 0.05)
 
 
 # ---- space: a screw ----------------------------------------------------------------------------------------------

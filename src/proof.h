@@ -54,8 +54,8 @@ int32_t cage_search_ends(struct cage_proof *proof, int32_t side);
 /* Forget what was reached; facts stay. */
 void cage_search_anew(struct cage_proof *proof, int32_t side);
 
-/* Which cell of the inner way to cut: where the outer search stops, the coarser of the last cell it reached and the first
- * it did not; if neither can be cut, the coarsest beyond. (Up to there the way is real: nothing to be gained.) -1: none
+/* Which cell of the inner way to cut: in space the coarsest from where the outer search stops; in the plane, at the stop, the coarser of
+ * the last cell it reached and the first it did not; if neither can be cut, the coarsest beyond. (Up to there the way is real: nothing to be gained.) -1: none
  * can be cut. *stop: the node of the way where the outer search stops. */
 int32_t cage_refine_choose(const struct cage_proof *proof, struct cage_node *target, struct cage_node **stop);
 

@@ -196,7 +196,8 @@ static int32_t limits_check(const cage_limits *limits, int32_t dim)
 }
 
 /* The coarsest level at which the object's farthest ball moves by no more than a third of the radius of a usual collision ball: in coarser
- * cells the inner balls shrink to little, and what is left has holes everywhere. */
+ * cells the inner balls shrink to little, and what is left has holes everywhere. In space, twice the radius: there a level too fine costs
+ * 8 times as much, and one too coarse is soon found out. */
 static int32_t first_level(const struct cage_proof *proof)
 {
     const struct cage_side *side = &proof->side[CAGE_INNER];
@@ -214,7 +215,8 @@ static int32_t first_level(const struct cage_proof *proof)
         sum += side->object[a].r;
     radius += sum / side->objects;
     struct cage_cell cell = {0, 0, {0, 0, 0}};
-    while (level < proof->limits.max_level && cage_displacement(proof->graph.fibre->turn(&cell), reach) > radius / 3) {
+    int64_t most = proof->scene.dim == 2 ? radius / 3 : 2 * radius;
+    while (level < proof->limits.max_level && cage_displacement(proof->graph.fibre->turn(&cell), reach) > most) {
         proof->graph.fibre->child(&cell, 0, &cell);
         level++;
     }

@@ -1,8 +1,8 @@
 /* refine: which cell to cut when the inner side has found a way that the outer side has not. */
 #include "proof.h"
 
-/* A cell where the two sides part is cut unless it is finer than the coarsest beyond by more levels than this: in space such cells lie along a
- * surface, and cutting these alone would resolve it without end. */
+/* In the plane a cell where the two sides part is cut unless it is finer than the coarsest beyond by more levels than this. In space such
+ * cells lie along a surface, and cutting these first would resolve it without end. */
 enum { LEAD = 1 };
 
 static bool refinable(const struct cage_proof *proof, int32_t cell)
@@ -41,6 +41,8 @@ int32_t cage_refine_choose(const struct cage_proof *proof, struct cage_node *tar
     }
     if (at_stop < 0 || beyond < 0)
         return at_stop >= 0 ? at_stop : beyond;
+    if (proof->scene.dim == 3)
+        return beyond;
     return proof->graph.cell[at_stop].cell.level <= proof->graph.cell[beyond].cell.level + LEAD ? at_stop : beyond;
 }
 

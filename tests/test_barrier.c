@@ -92,8 +92,9 @@ END_TEST
 static bool make_tetrahedron(uint64_t *state, struct cage_site site[4])
 {
     int64_t size = INT64_C(1) << test_between(state, 3, 23), height = test_between(state, 0, 2) ? size : size / 8;
+    int64_t radius = test_between(state, size / 2, 2 * size);
     for (int i = 0; i < 4; i++) {
-        int64_t x[3], r = test_between(state, size / 3, 2 * size);
+        int64_t x[3], r = radius + test_between(state, -size / 4, size / 4);
         for (int k = 0; k < 3; k++)
             x[k] = test_between(state, k == 2 ? -height : -size, k == 2 ? height : size);
         site[i] = sites_ball(3, x[0], x[1], x[2], r < sites_largest(3) ? r : sites_largest(3));

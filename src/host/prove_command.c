@@ -216,15 +216,18 @@ static void warn_empty(const options *given, const host_query *query)
         (void)fprintf(stderr, "cage: warning: %s has no balls\n", given->obstacles);
 }
 
-/* Better before a long proof than after it. */
+/* Better before a long proof than after it. Leaves no file where none was. */
 static int check_writable(const char *option, const char *path, host_error *error)
 {
+    const int there = path != NULL && access(path, F_OK) == 0;
     FILE *file = path != NULL ? fopen(path, "a") : NULL;
 
     if (path != NULL && file == NULL)
         return host_fail(error, HOST_BAD_INPUT, "%s: %.600s cannot be written: %.200s", option, path, strerror(errno));
     if (file != NULL)
         (void)fclose(file);
+    if (file != NULL && !there)
+        (void)remove(path);
     return HOST_OK;
 }
 

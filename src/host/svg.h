@@ -21,6 +21,7 @@ void svg_place(const host_ball *ball, const cage_pose *pose, double unit, double
 double svg_fit(svg_canvas *canvas, const svg_box *box, double x, double y, double width, double height);
 double svg_x(const svg_canvas *canvas, double x);
 double svg_y(const svg_canvas *canvas, double y);
+void svg_arrow(FILE *out); /* defines #arrow */
 double svg_legend(FILE *out, double x, double y, const char *shape, const char *name);
 
 /* ---- svg_plane.c -------------------------------------------------------------------------------- */

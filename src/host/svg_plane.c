@@ -105,8 +105,7 @@ static void write_symbols(FILE *out, const svg_canvas *canvas, const host_balls 
                        "</clipPath>\n",
                   svg_x(canvas, view->left), svg_y(canvas, view->top), (view->right - view->left) * canvas->scale,
                   (view->top - view->bottom) * canvas->scale);
-    (void)fprintf(out, "<marker id=\"arrow\" viewBox=\"0 0 10 10\" refX=\"8\" refY=\"5\" "
-                       "markerWidth=\"5\" markerHeight=\"5\" orient=\"auto\"><path d=\"M0 0L10 5L0 10z\" fill=\"#8e2466\"/></marker>\n");
+    svg_arrow(out);
     (void)fprintf(out, "<g id=\"balls\">\n");
     for (i = 0; i < object->count; i++)
         (void)fprintf(out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", object->ball[i].x[0] * canvas->scale,

@@ -1,4 +1,4 @@
-/* svg_space.c: a scene in space from above, from the front and from the right, cut open at the start: obstacles nearer than it are outlines. */
+/* svg_space.c: a scene in space from above, from the front and from the right; obstacles nearer than the start are outlines. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -209,7 +209,8 @@ static void write_path(FILE *out, const svg_canvas *canvas, int view, const host
     const int across = views[view].across, up = views[view].up;
     int32_t i;
 
-    (void)fprintf(out, "<polyline fill=\"none\" stroke=\"#8e2466\" stroke-width=\"2\" stroke-linejoin=\"round\" points=\"");
+    (void)fprintf(out, "<polyline fill=\"none\" stroke=\"#8e2466\" stroke-width=\"2\" stroke-linejoin=\"round\" "
+                       "marker-end=\"url(#arrow)\" points=\"");
     for (i = 0; i < answer->result->path_count; i++) {
         const cage_pose *pose = &answer->result->path[i];
 
@@ -310,6 +311,9 @@ void svg_space(FILE *out, const svg_canvas canvas[SVG_VIEWS], const host_answer 
 {
     int i;
 
+    (void)fprintf(out, "<defs>\n");
+    svg_arrow(out);
+    (void)fprintf(out, "</defs>\n");
     for (i = 0; i < SVG_VIEWS; i++)
         write_view(out, &canvas[i], i, answer);
     write_legend(out, answer, x, y);

@@ -4,7 +4,7 @@
 
 #include "picture.h"
 
-#define PIECES 64 /* of a leg, at most, between which it is looked at */
+#define PIECES 64 /* of a leg, at most, after each of which it is looked at */
 
 static double norm(const double *x, int count)
 {
@@ -172,20 +172,21 @@ static double walk(const host_answer *answer, const picture_box *box, double spa
     double length = 0;
     picture_stop a, b, at;
     int32_t i;
-    int k;
 
     *count = 0;
     for (i = 0; i + 1 < answer->result->path_count; i++) {
         double leg;
+        int pieces, k;
 
         path_stop(answer, i, &a);
         path_stop(answer, i + 1, &b);
         leg = leg_length(&a, &b, radius);
-        for (k = 1; leg > 0 && k <= PIECES; k++) {
-            between(&a, &b, (double)k / PIECES, &at);
+        pieces = leg < radius * PIECES / 16 ? 1 + (int)(16 * leg / radius) : PIECES;
+        for (k = 1; leg > 0 && k <= pieces; k++) {
+            between(&a, &b, (double)k / pieces, &at);
             if (!picture_inside(box, &at))
                 continue;
-            length += leg / PIECES;
+            length += leg / pieces;
             if (spacing > 0 && *count < most && length >= spacing * (*count + 1))
                 stop[(*count)++] = at;
         }
