@@ -83,6 +83,7 @@ space guest shell_moved CAGED shell_moved
 space guest sieve FREE home
 space ring link FREE unlinked
 space dumbbell_small hoop FREE home
+space coin bank_narrow CAGED home
 space coin bank_wide FREE home
 space mug hook FREE home '' outer
 space peanut chambers_narrow DISCONNECTED left_chamber right_chamber
@@ -91,7 +92,6 @@ space peanut chambers_wide CONNECTED left_chamber right_chamber outer
 # space ell pot_closed CAGED in_pot
 # space ell pot_open FREE in_pot '' outer
 # space screw coil FREE home '' outer
-# space coin bank_narrow CAGED home
 # space dumbbell_large hoop CAGED home
 # space ring link CAGED home
 # space mug eye CAGED home

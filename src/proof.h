@@ -29,6 +29,9 @@ struct cage_proof {
     int32_t phase;
     int32_t corridor;           /* cells with this number may be explored on the outer side; 0: all may */
     int32_t corridors;
+    int32_t even;               /* 1: it is the turn of an outer search over all cells, which are cut evenly; -1: no such turns any more */
+    int64_t even_steps;         /* taken in such turns */
+    int32_t outer_work;         /* slices and gluings of the outer side when the corridor was chosen */
     int32_t origin;             /* the cell the search begins at: CAGE_CELL_START or CAGE_CELL_GOAL */
     int32_t hopeless;           /* a way was banned: no inner proof any more; the reason then */
     int32_t error;

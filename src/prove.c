@@ -2,7 +2,8 @@
  *
  *     START    build the slices of start and goal
  *     INNER    reach what the inner slices connect: closed without the target is the proof of CAGED / DISCONNECTED
- *     OUTER    try to reach the target in the outer slices, along the inner way: a path proves FREE / CONNECTED
+ *     OUTER    try to reach the target in the outer slices, along the inner way: a path proves FREE / CONNECTED; when it has
+ *              come farther but not there, INNER again, from what it has reached
  *     REFINE   cut the cell where the two sides part, keep the facts, search again
  *     PATH     write the path down, leg by leg
  *
@@ -17,6 +18,9 @@ enum { START, INNER, OUTER, REFINE, PATH, DONE };
 
 /* Without a way to follow, cells are cut evenly; that stops so many levels before the finest. */
 enum { UNGUIDED = 3 };
+
+/* One step in so many. */
+enum { EVEN_SHARE = 4 };
 
 static int32_t finish(struct cage_proof *proof, int32_t verdict, int32_t reason)
 {
@@ -35,17 +39,34 @@ static void last_resort(struct cage_proof *proof, int32_t reason)
     cage_search_anew(proof, CAGE_OUTER);
 }
 
+/* In space the way that the inner slices leave open is often none, and cutting along it finds out slowly: a share of the steps goes to an
+ * outer search of its own. */
+static bool even_is_due(const struct cage_proof *proof)
+{
+    return proof->scene.dim == 3 && !proof->hopeless && proof->even == 0 && EVEN_SHARE * proof->even_steps < proof->result.steps;
+}
+
 static int32_t refine(struct cage_proof *proof)
 {
     bool inner = proof->limits.side & CAGE_SIDE_INNER, outer = proof->limits.side & CAGE_SIDE_OUTER;
-    bool guided = inner && (!proof->hopeless || proof->corridor > 0);
+    bool guided = inner && proof->even != 1 && (!proof->hopeless || proof->corridor > 0);
     struct cage_node *stop = NULL;
+    if (guided && outer && even_is_due(proof)) {
+        proof->even = 1;
+        proof->corridor = 0;
+        cage_search_anew(proof, CAGE_OUTER);
+        proof->phase = OUTER;
+        return CAGE_OK;
+    }
     int32_t cell = guided ? cage_refine_choose(proof, proof->way, &stop) : cage_refine_coarsest(proof);
     if (inner && !guided && cell >= 0 && proof->graph.cell[cell].cell.level + UNGUIDED >= proof->limits.max_level)
         cell = -1;
     if (cell >= 0 && cage_graph_refine(&proof->graph, cell)) {
         proof->result.level = proof->graph.level;
         proof->result.cells = proof->graph.cells - CAGE_CELL_ROOT;
+        proof->even = proof->even == 1 ? 0 : proof->even;
+    } else if (proof->even == 1) {
+        proof->even = -1;
     } else if (!guided || !outer) {
         return finish(proof, CAGE_UNDEFINED, cell >= 0 ? CAGE_REASON_CELLS : CAGE_REASON_LEVEL);
     } else if (cell >= 0 || !stop->via) {
@@ -58,7 +79,7 @@ static int32_t refine(struct cage_proof *proof)
     }
     cage_search_anew(proof, CAGE_INNER);
     cage_search_anew(proof, CAGE_OUTER);
-    proof->phase = guided ? INNER : OUTER;
+    proof->phase = inner && !(proof->hopeless && proof->corridor == 0) ? INNER : OUTER;
     return CAGE_OK;
 }
 
@@ -94,6 +115,7 @@ static int32_t step_inner(struct cage_proof *proof)
         return CAGE_OK;
     }
     proof->corridor = ++proof->corridors;
+    proof->outer_work = proof->result.slices[CAGE_OUTER] + proof->result.gluings[CAGE_OUTER];
     for (const struct cage_node *node = proof->way; node; node = node->from)
         proof->graph.cell[node->cell].corridor = proof->corridor;
     proof->phase = OUTER;
@@ -128,6 +150,11 @@ static int32_t step_outer(struct cage_proof *proof)
     if (done != CAGE_CLOSED)
         return done;
     proof->phase = REFINE;
+    if (proof->corridor > 0 && proof->limits.side == CAGE_SIDE_BOTH &&
+        proof->outer_work < proof->result.slices[CAGE_OUTER] + proof->result.gluings[CAGE_OUTER]) {
+        cage_search_anew(proof, CAGE_INNER); /* there may be a better way from where it has come */
+        proof->phase = INNER;
+    }
     return CAGE_OK;
 }
 
@@ -365,6 +392,7 @@ int32_t cage_prove_run(cage_proof *proof, int64_t steps)
     if (!proof)
         return CAGE_ERROR_ARGUMENT;
     for (; steps > 0 && proof->phase != DONE && proof->error == CAGE_OK; steps--) {
+        proof->even_steps += proof->even == 1;
         int32_t error = step(proof);
         proof->result.steps++;
         if (error < 0)

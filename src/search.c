@@ -170,6 +170,20 @@ static void discover(struct cage_proof *proof, int32_t side, struct cage_node *n
     reach->open_tail = node;
 }
 
+/* What the outer search has reached can be reached: begin there as well, so that the way found has the fewest steps that are not
+ * proved yet. */
+static void discover_confirmed(struct cage_proof *proof)
+{
+    for (int32_t cell = 0; cell < proof->graph.cells; cell++) {
+        const struct cage_facts *facts = proof->graph.cell[cell].facts;
+        for (int32_t k = 0; k < facts[CAGE_OUTER].nodes; k++) {
+            const struct cage_node *outer = &facts[CAGE_OUTER].node[k];
+            if (outer->seen == proof->reach[CAGE_OUTER].number && outer->inside >= 0)
+                discover(proof, CAGE_INNER, &facts[CAGE_INNER].node[outer->inside], NULL, NULL);
+        }
+    }
+}
+
 void cage_search_anew(struct cage_proof *proof, int32_t side)
 {
     struct cage_reach *reach = &proof->reach[side];
@@ -180,8 +194,11 @@ void cage_search_anew(struct cage_proof *proof, int32_t side)
     reach->open_head = NULL;
     reach->number++;
     proof->result.reached[side] = 0;
-    if (reach->start)
-        discover(proof, side, reach->start, NULL, NULL);
+    if (!reach->start)
+        return;
+    discover(proof, side, reach->start, NULL, NULL);
+    if (side == CAGE_INNER)
+        discover_confirmed(proof);
 }
 
 static bool is_target(const struct cage_proof *proof, int32_t side, const struct cage_node *node)
