@@ -51,7 +51,7 @@ demo: build/cage ## prove the example scenes: verdicts as a table, pictures in b
 # ---- tests: each tests/test_*.c is a program of its own, with the helpers beside it ----------------
 
 TESTS   = $(sort $(wildcard tests/test_*.c))
-HELPERS = $(filter-out tests/soak.c $(TESTS),$(sort $(wildcard tests/*.c)))
+HELPERS = $(filter-out tests/soak.c tests/soak_space.c $(TESTS),$(sort $(wildcard tests/*.c)))
 TEST_I  = -iquote src -iquote tests -Iinclude
 SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all
 
@@ -84,11 +84,12 @@ test: build/cage lib shared ## install what the tests need (when it may), build 
 build/prove_in_c: examples/prove_in_c.c build/libcage.a
 	$(CC) -std=c99 $(CFLAGS) $(WARN) -Iinclude $< build/libcage.a -o $@
 
-build/soak: tests/soak.c $(HELPERS) $(HEADERS) build/test/libhelpers.a
+build/soak build/soak_space: build/%: tests/%.c $(HELPERS) $(HEADERS) build/test/libhelpers.a
 	$(CC) -std=c99 -D_POSIX_C_SOURCE=200809L $(CFLAGS) $(TEST_I) $< build/test/libhelpers.a -lm -o $@
 
-soak: build/soak ## hunt for contradictions: build/soak FROM TO
+soak: build/soak build/soak_space ## hunt for contradictions: build/soak FROM TO, build/soak_space FROM TO
 	build/soak 1 2000
+	build/soak_space 1 300
 
 # ---- benchmarks ------------------------------------------------------------------------------------
 

@@ -168,7 +168,8 @@ const cage_result *cage_prove_result(const cage_proof *proof);
 
 /* Where can the pivot be? mask[i + nx (j + ny k)] becomes 1 where the point origin + pitch (i, j, k) lies in
  * the reached part of the inner slices for some rotation, else 0; count = {nx, ny, nz}, nz = 1 in
- * the plane, origin[2] = 0. Builds slices again: takes as long as a part of the proof. For pictures and statistics. */
+ * the plane, origin[2] = 0. Builds slices again: takes as long as a part of the proof. For pictures and statistics. After
+ * CAGE_ERROR_MEMORY the mask is incomplete. */
 int32_t cage_prove_region(cage_proof *proof, const int32_t origin[3], int32_t pitch,
                           const int32_t count[3], uint8_t *mask);
 

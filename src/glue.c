@@ -193,10 +193,9 @@ static bool add_by_proof(struct group *group, int32_t side, int32_t k)
 static int32_t glue_group(struct group *group, int32_t *mixed)
 {
     for (int32_t n = 0; n < group->members; n++) {
-        int32_t side = group->member[n] < 0, k = side ? -1 - group->member[n] : group->member[n], count = group->count;
+        int32_t side = group->member[n] < 0, k = side ? -1 - group->member[n] : group->member[n];
         if (!add_by_proof(group, side, k)) {
-            group->count = count;
-            *mixed = 1;
+            *mixed = 1; /* pairs that were proved stay: their points are exact */
             int32_t error = add_by_mixture(group, side, k);
             if (error != CAGE_OK)
                 return error;

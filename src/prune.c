@@ -16,7 +16,8 @@ static void lay(int32_t dim, const cage_ball *ball, int32_t count, struct cage_r
         }
     }
     int32_t pixels = dim == 2 ? PIXELS_2D : PIXELS_3D, extent = 0; /* high - low <= 2^30 */
-    while (dim == 2 && pixels > PIXELS_2D / 8 && pixels * pixels / 64 / 8 > count) /* no more words than a few for each ball */
+    int32_t least = dim == 2 ? PIXELS_2D / 8 : PIXELS_3D / 4;
+    while (pixels > least && pixels * pixels / 64 / 8 * (dim == 2 ? 1 : pixels) > count) /* no more words than a few for each ball */
         pixels /= 2;
     int32_t limit = pixels - 2 * MARGIN - 1;
     for (int32_t k = 0; k < dim; k++)

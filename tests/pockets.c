@@ -101,7 +101,8 @@ static void make_nested(struct maker *m)
                  m->radius - (draw(m, 0, 2) ? 0 : m->unit * draw(m, 0, 2) / 4));
 }
 
-/* Integer points of a circle of radius 5 or a sphere of radius 3 with a hollow inside, maybe with something in it. */
+/* Integer points of a circle of radius 5 or a sphere of radius 3 with a hollow inside, maybe with something in it, maybe filled by a ball that
+ * none but the others can touch. */
 static void make_round(struct maker *m)
 {
     int32_t size = m->dim == 2 ? 5 : 3, deep = m->dim == 2 ? 0 : size;
@@ -112,6 +113,8 @@ static void make_round(struct maker *m)
             for (int32_t x = -size; x <= size; x++)
                 if (x * x + y * y + z * z == size * size && draw(m, 0, 99) > 2)
                     jittered(m, x * step, y * step, z * step, jitter);
+    if (draw(m, 0, 2) == 0)
+        obstacle(m, part(m, 50), part(m, 50), part(m, 50), m->unit * draw(m, 500, 2000) / 1000);
     for (int64_t i = 0; i < inside; i++)
         obstacle(m, part(m, 1000), part(m, 1000), part(m, 1000), draw(m, 0, 1) ? m->radius : m->unit * draw(m, 0, 300) / 1000);
 }
@@ -220,6 +223,8 @@ static void choose_rotations(struct maker *m)
         m->out->at[1] = m->out->at[0];
     if (kind == 3)
         m->out->at[draw(m, 0, 1)].turn = 0;
+    if (draw(m, 0, 5) == 0) /* as if the cell were larger: radii that differ much, balls that are in one slice alone */
+        m->out->at[draw(m, 0, 1)].turn = draw(m, 0, (int64_t)1 << 30);
 }
 
 /* Obstacles were made as large as collision balls should be: take off what the first object ball adds, in either slice or between them. */

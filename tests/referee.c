@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "oracle.h"
+#include "oracle_space.h"
 
 int32_t referee_prove(const question *q, int64_t portion, void *memory, size_t bytes, cage_result *result)
 {
@@ -25,6 +26,19 @@ int referee_decided(int32_t verdict)
     return verdict != CAGE_UNDEFINED && verdict != CAGE_IN_COLLISION;
 }
 
+static long double path_depth(const question *q, const cage_result *r, const char **wrong)
+{
+    return q->view->dim == 2
+               ? oracle_check_path(q->view, q->start, q->goal, r->pivot, r->path, r->path_count, wrong)
+               : oracle_space_check_path(q->view, q->start, q->goal, r->pivot, r->path, r->path_count, wrong);
+}
+
+static long double pose_depth(const question *q, const cage_pose *pose)
+{
+    return q->view->dim == 2 ? oracle_depth(q->view, pose, CAGE_SIDE_INNER)
+                             : oracle_space_depth(q->view, pose, CAGE_SIDE_INNER);
+}
+
 static const char *form_path(const question *q, const cage_result *r)
 {
     const char *wrong = NULL;
@@ -34,7 +48,7 @@ static const char *form_path(const question *q, const cage_result *r)
     if (cage_path_check(q->view, q->start, q->goal, r->pivot, r->path, r->path_count) != 1) {
         return "cage_path_check refuses the path";
     }
-    if (oracle_check_path(q->view, q->start, q->goal, r->pivot, r->path, r->path_count, &wrong) > ORACLE_SLACK) {
+    if (path_depth(q, r, &wrong) > ORACLE_SLACK) {
         return wrong ? wrong : "the path collides";
     }
     return wrong;
@@ -62,7 +76,7 @@ static const char *form_collision(const question *q, const cage_result *r)
     if (!pose) {
         return "collides neither at start nor at goal";
     }
-    return oracle_depth(q->view, pose, CAGE_SIDE_INNER) > -ORACLE_SLACK ? NULL : "said to collide, but free";
+    return pose_depth(q, pose) > -ORACLE_SLACK ? NULL : "said to collide, but free";
 }
 
 static const char *form_undefined(const question *q, const cage_result *r)
