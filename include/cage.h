@@ -126,7 +126,7 @@ typedef struct cage_result {
     int64_t inserted[2];    /* of these, the ones triangulated (the rest is covered by them) */
     int64_t steps;          /* steps taken */
     uint64_t peak_bytes;    /* most bytes of the block in use at once, caches not counted */
-    uint64_t needed_bytes;  /* after CAGE_ERROR_MEMORY: a block of this size gets at least further */
+    uint64_t needed_bytes;  /* after CAGE_ERROR_MEMORY: the block to try next, larger; the same step may ask for still more */
     int32_t pivot[3];       /* the point of the object that rotations are about, in the object's frame */
     int32_t path_count;     /* poses on the path, 0 where there is none */
     const cage_pose *path;  /* in the caller's block; x is where the PIVOT is: see cage_path_check */
@@ -147,8 +147,8 @@ typedef struct cage_proof cage_proof; /* lives at the start of the caller's bloc
 
 void cage_limits_default(cage_limits *limits, int32_t dim);
 
-/* Bytes that are enough for a proof of this scene to begin, at any alignment, and to do ordinary work; more memory never changes
- * an answer, it only saves building slices twice. Limits null: the default ones. 0 if the scene or the limits are not valid. */
+/* Bytes that are enough for a proof of this scene to begin, at any alignment, and as a rule to finish (if not, see needed_bytes); more
+ * memory never changes an answer, it only saves building slices twice. Limits null: the default ones. 0 if the scene or the limits are not valid. */
 size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits);
 
 /* Ask: can the object leave the start (goal null), or get from start to goal? The scene's balls are

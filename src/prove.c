@@ -293,7 +293,7 @@ size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits)
     return all > SIZE_MAX ? SIZE_MAX : (size_t)all;
 }
 
-/* A block that lets the step that failed for want of memory succeed. */
+/* A block in which the allocation that failed would succeed; a later one of the same step may fail in it. */
 static uint64_t memory_needed(const struct cage_proof *proof)
 {
     size_t quarter = proof->store.size, most = 2 * quarter;

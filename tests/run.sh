@@ -19,7 +19,7 @@ for source in tests/test_*.c; do
     add "$test" "build/test/$test"
     add "$test, ASan and UBSan" "$quick CAGE_TEST_SCENES=20 build/sanitized/$test"
 done
-for name in delaunay answers predicate wide arena component glue store pose refuse; do
+for name in answers wide arena component glue store pose refuse; do
     add "test_$name, Valgrind" "$quick CAGE_TEST_SCENES=2 $memcheck build/test/test_$name"
 done
 add "the command, Valgrind" "$memcheck build/cage prove --object examples/walls/plus.xyzr --obstacles examples/walls/walls_R10.xyzr \

@@ -303,7 +303,7 @@ START_TEST(limit_errors)
     }
     /* all cells down to the start level have to be allowed: 2 (2^(n+1) - 1) in the plane, 4 (8^(n+1) - 1) / 7 in space */
     const cage_scene space = scene_of(3, &unit, 1, &away, 1);
-    for (int32_t level = 0, cells[2] = {2, 4}; level < 6; level++) {
+    for (int32_t level = 0, cells[2] = {2, 4}; level < 4; level++) {
         for (int32_t dim = 2; dim <= 3; dim++) {
             cage_limits some = good;
             some.start_level = some.max_level = level;
