@@ -7,7 +7,7 @@
 #include "body.h"
 #include "wide.h"
 
-enum { PLACE_LIMIT = 1 << 30, SPLITS = 1 << 10 };
+enum { PLACE_LIMIT = 1 << 30, PIECES = 1 << 10 };
 
 /* N R(q) v, N = |q|^2, entries of q at most 2^30, of v at most 2^29: < 2^93. */
 static void turned(const int32_t q[4], const int32_t v[3], cage_i128 out[3], int64_t *norm)
@@ -149,10 +149,10 @@ static bool ambiguous(const int32_t q[4], const int32_t r[4])
     return dot == 0;
 }
 
-/* The whole arc, in pieces as small as need be. */
-static bool turn_clear(const cage_scene *scene, const int32_t pivot[3], const int32_t p[3], const int32_t q[4], const int32_t r[4])
+bool cage_certify_turn(const cage_scene *scene, const int32_t pivot[3], const int32_t p[3], const int32_t q[4], const int32_t r[4],
+                       int32_t pieces)
 {
-    for (int32_t n = 1; n <= SPLITS && !ambiguous(q, r); n *= 4) {
+    for (int32_t n = 1; n <= pieces && !ambiguous(q, r); n *= 4) {
         bool clear = true;
         int32_t from[4] = {q[0], q[1], q[2], q[3]}, to[4];
         for (int32_t k = 1; clear && k <= n; k++) {
@@ -270,7 +270,7 @@ int32_t cage_path_check(const cage_scene *scene, const cage_pose *start, const c
         if (same_rotation(a->q, b->q))
             clear = cage_certify_leg(scene, pivot, a->q, a->x, b->x, 0);
         else if (same_place(a->x, b->x))
-            clear = turn_clear(scene, pivot, a->x, a->q, b->q);
+            clear = cage_certify_turn(scene, pivot, a->x, a->q, b->q, PIECES);
         if (!clear)
             return 0;
     }

@@ -13,7 +13,9 @@ struct cage_reach {
 };
 
 struct cage_proof {
-    struct cage_result result;
+    struct cage_result result; /* of this search */
+    struct cage_result total;  /* and of the second one */
+    struct cage_proof *second; /* in space, when both sides are asked for: see run.c */
     struct cage_limits limits;
     struct cage_arena arena;   /* what stays: this struct, the graph, facts, the path */
     struct cage_arena scratch; /* empty between steps */
@@ -29,8 +31,7 @@ struct cage_proof {
     int32_t phase;
     int32_t corridor;           /* cells with this number may be explored on the outer side; 0: all may */
     int32_t corridors;
-    int32_t even;               /* 1: it is the turn of an outer search over all cells, which are cut evenly; -1: no such turns any more */
-    int64_t even_steps;         /* taken in such turns */
+    int64_t outer_steps;        /* taken by the outer side */
     int32_t outer_work;         /* slices and gluings of the outer side when the corridor was chosen */
     int32_t origin;             /* the cell the search begins at: CAGE_CELL_START or CAGE_CELL_GOAL */
     int32_t hopeless;           /* a way was banned: no inner proof any more; the reason then */
@@ -40,7 +41,27 @@ struct cage_proof {
     int32_t path_room;
     int32_t path_count;
     struct cage_node *leg;      /* node of the way whose leg of the path comes next */
+    int32_t path_at, path_kept; /* while it is shortened: the pose that comes next, and how many are kept */
 };
+
+enum { CAGE_PHASE_DONE = 100 };
+
+/* The second search may make one cell for so many of the first. */
+enum { CAGE_SECOND_CELLS = 8 };
+
+/* One step of this search alone. */
+int32_t cage_proof_step(struct cage_proof *proof);
+
+int32_t cage_proof_finish(struct cage_proof *proof, int32_t verdict, int32_t reason);
+
+/* Has its outer side had its share of the steps? */
+bool cage_proof_spares_outer(const struct cage_proof *proof);
+
+/* Add up the results of both searches. */
+void cage_proof_total(struct cage_proof *proof);
+
+/* The block to try next, after CAGE_ERROR_MEMORY. */
+uint64_t cage_proof_needed(const struct cage_proof *proof);
 
 /* The slice of a cell, built again if it was dropped. */
 int32_t cage_proof_slice(struct cage_proof *proof, int32_t side, int32_t cell, const struct cage_slice **slice);
@@ -57,6 +78,9 @@ int32_t cage_search_ends(struct cage_proof *proof, int32_t side);
 /* Forget what was reached; facts stay. */
 void cage_search_anew(struct cage_proof *proof, int32_t side);
 
+/* The same, and reach what the known edges lead to. */
+void cage_search_known(struct cage_proof *proof, int32_t side);
+
 /* Which cell of the inner way to cut: in space the coarsest from where the outer search stops; in the plane, at the stop, the coarser of
  * the last cell it reached and the first it did not; if neither can be cut, the coarsest beyond. (Up to there the way is real: nothing to be gained.) -1: none
  * can be cut. *stop: the node of the way where the outer search stops. */
@@ -72,5 +96,9 @@ void cage_path_begin(struct cage_proof *proof);
 int32_t cage_path_step(struct cage_proof *proof);
 
 #define CAGE_PATH_FAILED (-1000)
+
+/* Shorten the path that was written, one pose at a time; true when that is done. */
+void cage_shorten_begin(struct cage_proof *proof);
+bool cage_shorten_step(struct cage_proof *proof);
 
 #endif

@@ -226,6 +226,12 @@ static struct cage_node *follow(struct cage_proof *proof, int32_t side)
     return NULL;
 }
 
+void cage_search_known(struct cage_proof *proof, int32_t side)
+{
+    cage_search_anew(proof, side);
+    follow(proof, side);
+}
+
 static void follow_again(struct cage_proof *proof, int32_t side, int32_t cell)
 {
     const struct cage_facts *facts = &proof->graph.cell[cell].facts[side];

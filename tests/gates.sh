@@ -102,13 +102,13 @@ fi
 # ---- who calls whom --------------------------------------------------------------------------------------
 
 # flags and a suffix: the files calls.SUFFIX ("caller callee") and frames.SUFFIX ("function bytes kind"). A call
-# through a pointer may go to any function of a file that has functions in a table.
+# through a pointer may go to any function of a file that has functions in a table (tables of jumps look alike: none).
 call_graph() {
     mkdir -p "$folder/graph"
     rm -f "$folder"/graph/*
     for file in src/*.c; do
         name=$(basename "$file" .c)
-        gcc -std=c99 -ffreestanding $1 -Iinclude -fcallgraph-info=su -c "$file" -o "$folder/graph/$name.o" 2>/dev/null || return 1
+        gcc -std=c99 -ffreestanding $1 -fno-jump-tables -Iinclude -fcallgraph-info=su -c "$file" -o "$folder/graph/$name.o" 2>/dev/null || return 1
         if objdump -r "$folder/graph/$name.o" | awk '/RECORDS FOR/ { data = /\.(data|rodata)/ } data && $3 ~ /^\.text/ { found = 1 } END { exit !found }'; then
             sed -n 's/^node: { title: "\([^"]*\)".* bytes (.*/__indirect_call \1/p' "$folder/graph/$name.ci"
         fi

@@ -268,6 +268,135 @@ START_TEST(swapped_ends_answer_alike)
 }
 END_TEST
 
+/* Obstacles that grow only close ways: what is free when they are thick is free when they are thinner. joined: a path is known that
+ * fits obstacles thicker by so much; caged: the least at which the library says that there is none. */
+typedef struct border {
+    int32_t joined, caged;
+} border;
+
+#define BORDER_CELLS 40
+
+static void thicken(const space_scene *in, int32_t by, space_scene *out)
+{
+    *out = *in;
+    for (int32_t j = 0; j < out->obstacle_count; j++) {
+        cage_ball *o = &out->obstacles[j];
+        o->r = by > -o->r ? o->r + by : 0;
+    }
+}
+
+static void ask_thicker(const asked *a, int32_t by, asked *b)
+{
+    thicken(&a->s, by, &b->s);
+    ask(b, BORDER_CELLS);
+}
+
+/* By how much the obstacles may grow so that neither end collides, by a unit at least, and the scene still fits. */
+static int32_t room_to_grow(const asked *a)
+{
+    asked b;
+    long double depth = oracle_space_depth(&a->view, &a->s.start, CAGE_SIDE_INNER);
+    if (a->q.goal) {
+        long double other = oracle_space_depth(&a->view, a->q.goal, CAGE_SIDE_INNER);
+        depth = other > depth ? other : depth;
+    }
+    int32_t room = depth >= -2 ? 0 : depth < -CAGE_REACH_3D ? CAGE_REACH_3D : (int32_t)-depth - 1;
+    for (ask_thicker(a, room, &b); room > 0 && cage_scene_check(&b.view) != CAGE_OK; ask_thicker(a, room, &b)) {
+        room /= 2;
+    }
+    return room;
+}
+
+/* A path fits obstacles that are thicker by its clearance, too; beyond its end the object moves away from all of them. */
+static int32_t path_clearance(const asked *a, const cage_result *r)
+{
+    const char *wrong;
+    long double depth = oracle_space_check_path(&a->view, a->q.start, a->q.goal, r->pivot, r->path, r->path_count, &wrong);
+    expect(a, wrong, "path");
+    return depth < -2 ? (int32_t)-depth - 1 : 0;
+}
+
+static int32_t probe(const asked *a, int32_t by, border *known)
+{
+    asked b;
+    cage_result r;
+    ask_thicker(a, by, &b);
+    prove(&b, 0, block, &r);
+    expect(&b, r.verdict == CAGE_IN_COLLISION ? "an end collides" : NULL, "thickness");
+    if (is_separated(r.verdict) && by < known->caged) {
+        known->caged = by;
+    }
+    if (r.verdict == CAGE_FREE || r.verdict == CAGE_CONNECTED) {
+        int32_t fits = by + path_clearance(&b, &r);
+        known->joined = fits > known->joined ? fits : known->joined;
+    }
+    expect(&b, known->joined >= known->caged ? "separated, but joined when thicker" : NULL, "thickness");
+    return r.verdict;
+}
+
+/* Halves towards the thickest obstacles that the library finds a path past, and towards the thinnest that it says there is none
+ * past; in between it says neither. Then where the best path just fits. */
+static void close_in(const asked *a, int32_t room, int rounds, border *known)
+{
+    int32_t low = -2 * room, high = room;
+    for (int round = 0; round < rounds && high > low + 1; round++) {
+        int32_t by = low + (high - low) / 2, verdict = probe(a, by, known);
+        if (verdict == CAGE_FREE || verdict == CAGE_CONNECTED) {
+            low = known->joined < high ? known->joined : high;
+        } else {
+            high = by;
+        }
+    }
+    if (known->caged > room) {
+        probe(a, room, known);
+    }
+    high = known->caged;
+    for (int round = 0; round < rounds && known->caged <= room && high > low + 1; round++) {
+        int32_t by = low + (high - low) / 2;
+        if (is_separated(probe(a, by, known))) {
+            high = by;
+        } else {
+            low = by;
+        }
+    }
+    if (known->joined > INT32_MIN) {
+        probe(a, known->joined, known);
+    }
+}
+
+/* The least gap that the library calls closed is where an error shows first: there the oracle looks for a path. */
+START_TEST(thicker_obstacles_free_nothing)
+{
+    int32_t n = scenes_wanted() / 3 + 1, joined = 0, caged = 0, both = 0;
+    long double apart = 0;
+    for (int32_t seed = 0; seed < n; seed++) {
+        asked a, b;
+        const char *how;
+        border known = {INT32_MIN, INT32_MAX};
+        ask_random(&a, (uint64_t)seed + 70000, BORDER_CELLS);
+        int32_t room = room_to_grow(&a);
+        if (room == 0) {
+            continue;
+        }
+        close_in(&a, room, quick() ? 3 : 6, &known);
+        joined += known.joined > INT32_MIN;
+        if (known.caged == INT32_MAX) {
+            continue;
+        }
+        ask_thicker(&a, known.caged, &b);
+        expect(&b, referee_contradiction(b.q.goal ? CAGE_DISCONNECTED : CAGE_CAGED, judge(&b, CAGE_CAGED, &how)), "at the border");
+        caged++;
+        if (known.joined > INT32_MIN) {
+            both++;
+            apart += (long double)(known.caged - known.joined) / room;
+        }
+    }
+    printf("borders: %d scenes, %d joined when thin, %d separated when thick, %d both, there %.1Lf %% of the room apart\n", (int)n,
+           (int)joined, (int)caged, (int)both, both ? 100 * apart / both : 0.0L);
+    ck_assert(n < 40 || both > n / 10);
+}
+END_TEST
+
 /* Every result on the way must call itself unfinished. */
 static void prove_in_pieces(const asked *a, int32_t portion, cage_result *r)
 {
@@ -301,6 +430,104 @@ START_TEST(portions_do_not_matter)
         prove_in_pieces(&a, seed % 4 ? 7 : 1, &t);
         expect(&a, referee_difference(&r, &t, 1), "portions");
     }
+}
+END_TEST
+
+/* ---- memory ---------------------------------------------------------------------------------------------- */
+
+#define GUARD 4096 /* bytes watched on either side of a small block */
+#define TRIES 40   /* at most, as each block advised has half as much again to work in */
+
+typedef struct squeezed {
+    int32_t blocks, answered, most_tries;
+} squeezed;
+
+static int is_untouched(const unsigned char *guard)
+{
+    for (size_t i = 0; i < GUARD; i++) {
+        if (guard[i] != 0x5a) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Proves in exactly so many bytes of junk: the answer, or CAGE_ERROR_MEMORY and then *next, a block to try that is larger. */
+static int32_t prove_squeezed(const asked *a, size_t bytes, const cage_result *right, size_t *next, squeezed *count)
+{
+    cage_result r;
+    unsigned char *start = spare + GUARD + count->blocks % 16;
+    ck_assert(bytes <= PLENTY - 2 * GUARD - 16);
+    memset(start - GUARD, 0x5a, GUARD);
+    memset(start, count->blocks % 2 ? 0xff : 0x00, bytes < 65536 ? bytes : 65536);
+    memset(start + bytes, 0x5a, GUARD);
+    int32_t error = referee_prove(&a->q, count->blocks % 3 ? 0 : 5, start, bytes, &r);
+    expect(a, is_untouched(start - GUARD) && is_untouched(start + bytes) ? NULL : "written beyond the block", "memory");
+    count->blocks++;
+    if (error == CAGE_OK) {
+        expect(a, referee_difference(right, &r, 0), "in a smaller block");
+        count->answered++;
+        return error;
+    }
+    ck_assert_int_eq(error, CAGE_ERROR_MEMORY);
+    ck_assert_int_eq(r.verdict, CAGE_UNDEFINED);
+    *next = r.cells > 0 ? (size_t)r.needed_bytes : cage_prove_size(&a->view, &a->limits); /* no cells: it did not begin */
+    expect(a, *next > bytes ? NULL : "no more is needed than there was", "memory");
+    return error;
+}
+
+static void follow_needed(const asked *a, size_t bytes, const cage_result *right, squeezed *count)
+{
+    int32_t tries = 0;
+    size_t next = 0;
+    while (prove_squeezed(a, bytes, right, &next, count) != CAGE_OK) {
+        expect(a, ++tries < TRIES && next <= PLENTY / 2 ? NULL : "what is needed leads nowhere", "memory");
+        bytes = next;
+    }
+    count->most_tries = tries > count->most_tries ? tries : count->most_tries;
+}
+
+/* Halves the block until it is too small, closes in on what is just enough, and follows the advice from below that. */
+static void squeeze(const asked *a, const cage_result *right, squeezed *count)
+{
+    size_t high = PLENTY / 2, low = high, next;
+    while (prove_squeezed(a, low, right, &next, count) == CAGE_OK) {
+        high = low;
+        low /= 2;
+    }
+    for (size_t less = low; less > low / 16; less /= 2) {
+        follow_needed(a, less, right, count);
+    }
+    follow_needed(a, 1, right, count);
+    for (int round = 0; round < (quick() ? 2 : 5); round++) { /* where the most slices are dropped and built again */
+        size_t middle = low + (high - low) / 2;
+        if (prove_squeezed(a, middle, right, &next, count) == CAGE_OK) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    follow_needed(a, low, right, count);
+}
+
+/* More memory never changes an answer. */
+START_TEST(smaller_blocks_answer_alike)
+{
+    int32_t n = scenes_wanted() / 5 + 1, separated = 0, joined = 0, undecided = 0;
+    squeezed count = {0, 0, 0};
+    for (int32_t seed = 0; seed < n; seed++) {
+        asked a;
+        cage_result right;
+        ask_random(&a, (uint64_t)seed + 80000, 40);
+        prove(&a, 0, block, &right);
+        squeeze(&a, &right, &count);
+        separated += is_separated(right.verdict);
+        joined += right.verdict == CAGE_FREE || right.verdict == CAGE_CONNECTED;
+        undecided += right.verdict == CAGE_UNDEFINED;
+    }
+    printf("memory: %d scenes (%d separated, %d joined, %d undecided) in %d smaller blocks, answered in %d, after %d tries at "
+           "most\n", (int)n, (int)separated, (int)joined, (int)undecided, (int)count.blocks, (int)count.answered, (int)count.most_tries);
+    ck_assert(n < 20 || (separated > 0 && joined > 0 && undecided > 0));
 }
 END_TEST
 
@@ -397,7 +624,9 @@ int main(void)
     add(suite, "oracle", answers_are_the_oracles, few_balls);
     add(suite, "sides", each_side_keeps_to_its_balls, single_sides_agree);
     add(suite, "alike", moved_scenes_answer_alike, swapped_ends_answer_alike);
+    add(suite, "borders", thicker_obstacles_free_nothing, NULL);
     add(suite, "portions", portions_do_not_matter, NULL);
+    add(suite, "memory", smaller_blocks_answer_alike, NULL);
     add(suite, "paths", path_check_is_right, NULL);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);

@@ -1,26 +1,32 @@
-/* bench.c: times triangulations and whole proofs: `bench` prints tables, `bench SET [RUNS]` one line as peer_cgal does. */
+/* bench.c: times triangulations and whole proofs: `bench` prints tables, `bench SET [RUNS]` one line as peer_cgal does,
+ * `bench space SCENE FILE` one for each slice, `bench uniform` the last table alone. */
 #include <stdio.h>
 #include <time.h>
 
 #include "../../src/delaunay.h"
 #include "../../src/fibre.h"
-#include "../../src/slice.h"
+#include "bench.h"
 #include "sets.h"
-
-#define ROOM ((size_t)512 << 20)
 
 static unsigned char *block;
 
-static void die(const char *what)
+void bench_die(const char *what)
 {
     fprintf(stderr, "bench: %s\n", what);
     exit(1);
 }
 
-static double now(void)
+double bench_now(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+double bench_processor(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
@@ -35,7 +41,7 @@ static void count(const struct cage_triangulation *t, struct timing *out)
 {
     unsigned char *seen = calloc((size_t)t->sites, 1);
     if (!seen)
-        die("no memory");
+        bench_die("no memory");
     out->simplices = out->vertices = 0;
     for (int32_t s = 0; s < t->simplices; s++) {
         bool finite = true;
@@ -55,7 +61,7 @@ static void time_set(const struct bench_set *set, int32_t runs, struct timing *o
     cage_ball *ball = malloc((size_t)set->count * sizeof *ball);
     double *ns = malloc((size_t)runs * sizeof *ns);
     if (!ball || !ns)
-        die("no memory");
+        bench_die("no memory");
     for (int32_t i = 0; i < set->count; i++) {
         const int32_t *b = set->ball + 4 * (size_t)i;
         const cage_ball made = {b[0], b[1], b[2], b[3]};
@@ -64,11 +70,11 @@ static void time_set(const struct bench_set *set, int32_t runs, struct timing *o
     for (int32_t i = 0; i < runs; i++) {
         struct cage_arena arena;
         struct cage_triangulation t;
-        cage_arena_init(&arena, block, ROOM);
-        double start = now();
+        cage_arena_init(&arena, block, BENCH_ROOM);
+        double start = bench_now();
         if (cage_delaunay(&arena, set->dim, ball, set->count, &t) != CAGE_OK)
-            die("cage_delaunay failed");
-        ns[i] = (now() - start) * 1e9 / set->count;
+            bench_die("cage_delaunay failed");
+        ns[i] = (bench_now() - start) * 1e9 / set->count;
         if (i == 0)
             count(&t, out);
     }
@@ -121,7 +127,7 @@ static void make_fence(struct fence *fence)
     const cage_scene scene = {object, obstacles, 2};
     fence->scene = scene;
     if (cage_scene_check(&fence->scene) != CAGE_OK)
-        die("the fence does not fit");
+        bench_die("the fence does not fit");
 }
 
 /* Seconds of the whole proof, the best and the median of the runs. */
@@ -131,11 +137,11 @@ static void prove(const struct fence *fence, const cage_limits *limits, int32_t 
     const cage_pose start = {{0, 0, 0}, {1, 0, 0, 0}};
     for (int32_t i = 0; i < runs; i++) {
         cage_proof *proof;
-        double began = now();
-        if (cage_prove_begin(&proof, &fence->scene, &start, NULL, limits, block, ROOM) != CAGE_OK ||
+        double began = bench_now();
+        if (cage_prove_begin(&proof, &fence->scene, &start, NULL, limits, block, BENCH_ROOM) != CAGE_OK ||
             cage_prove_run(proof, INT64_MAX) != 1)
-            die("the proof failed");
-        time[i] = now() - began;
+            bench_die("the proof failed");
+        time[i] = bench_now() - began;
         *result = *cage_prove_result(proof);
     }
     qsort(time, (size_t)runs, sizeof *time, bench_by_value);
@@ -150,15 +156,15 @@ static void print_proof(const char *name, const double seconds[2], const cage_re
            (long long)r->inserted[0], (long long)r->steps);
 }
 
-/* All collision balls of a slice, those included that it left out. */
-static int32_t all_balls(const struct cage_side *side, const struct cage_slice *slice, cage_ball *ball)
+int32_t bench_all_balls(const struct cage_side *side, const struct cage_slice *slice, cage_ball *ball)
 {
     int32_t n = 0;
     for (int32_t a = 0; a < side->objects; a++)
         for (int32_t j = 0; j < side->obstacles; j++) {
             const cage_ball *x = &side->obstacle[j];
             const struct cage_part *part = &slice->part[a];
-            const cage_ball made = {x->x - part->at[0], x->y - part->at[1], 0, x->r + side->object[a].r + part->change};
+            const cage_ball made = {x->x - part->at[0], x->y - part->at[1], x->z - part->at[2],
+                                    x->r + side->object[a].r + part->change};
             if (made.r >= 0)
                 ball[n++] = made;
         }
@@ -181,10 +187,10 @@ static double triangulate(struct cage_arena *arena, const cage_ball *ball, int32
 {
     struct cage_triangulation t;
     size_t mark = arena->used;
-    double start = now();
+    double start = bench_now();
     if (cage_delaunay(arena, 2, ball, balls, &t) != CAGE_OK)
-        die("cage_delaunay failed");
-    double taken = now() - start;
+        bench_die("cage_delaunay failed");
+    double taken = bench_now() - start;
     cage_arena_release(arena, mark);
     return taken;
 }
@@ -195,9 +201,9 @@ static void triangulations(const struct fence *fence, const cage_result *result,
     static cage_ball ball[OBSTACLES * OBJECTS];
     struct cage_arena arena;
     struct cage_side side;
-    cage_arena_init(&arena, block, ROOM);
+    cage_arena_init(&arena, block, BENCH_ROOM);
     if (cage_side_make(&arena, &fence->scene, result->pivot, -1, &side) != CAGE_OK)
-        die("cage_side_make failed");
+        bench_die("cage_side_make failed");
     seconds[0] = seconds[1] = *slices = 0;
     for (int32_t face = 0; face < cage_so2.roots; face++)
         for (int32_t at = 0; at < 1 << level; at++) {
@@ -207,12 +213,12 @@ static void triangulations(const struct fence *fence, const cage_result *result,
             cage_so2.representative(&cell, rotations.q);
             rotations.turn = cage_so2.turn(&cell);
             size_t mark = arena.used;
-            double start = now();
+            double start = bench_now();
             if (cage_slice_make(&arena, &side, &rotations, &slice) != CAGE_OK)
-                die("cage_slice_make failed");
-            *slices += now() - start;
+                bench_die("cage_slice_make failed");
+            *slices += bench_now() - start;
             seconds[0] += triangulate(&arena, ball, kept_balls(&slice, ball));
-            seconds[1] += triangulate(&arena, ball, all_balls(&side, &slice, ball));
+            seconds[1] += triangulate(&arena, ball, bench_all_balls(&side, &slice, ball));
             cage_arena_release(&arena, mark);
         }
 }
@@ -231,7 +237,7 @@ static void print_fence(void)
     prove(&fence, &limits, 9, seconds, &result);
     print_proof("default", seconds, &result);
     if (result.verdict != CAGE_CAGED)
-        die("the fence must be proved CAGED");
+        bench_die("the fence must be proved CAGED");
     for (int32_t level = 6; level <= 7; level++) {
         char name[32];
         limits.side = CAGE_SIDE_INNER;
@@ -253,24 +259,33 @@ static void print_fence(void)
         printf("  %3d %-14s %22.3f %22.3f %10.3f\n", 128 << i, "uniform cells", ratio[i][0], ratio[i][1], ratio[i][2]);
 }
 
+static void print_set(int number, int runs)
+{
+    struct bench_set set;
+    struct timing t;
+    if (number < 0 || number >= BENCH_SETS)
+        bench_die("usage: bench [SET [RUNS] | space SCENE FILE | uniform]");
+    bench_set_make(&set, number);
+    time_set(&set, runs > 0 ? runs : bench_runs(&set), &t);
+    printf("%s %d %d %.1f %.1f %d %d\n", set.name, set.dim, set.count, t.best, t.median, t.simplices, t.vertices);
+    free(set.ball);
+}
+
 int main(int argc, char **argv)
 {
-    block = malloc(ROOM);
+    block = malloc(BENCH_ROOM);
     if (!block)
-        die("no memory");
-    if (argc > 1) {
-        struct bench_set set;
-        struct timing t;
-        int number = atoi(argv[1]);
-        if (number < 0 || number >= BENCH_SETS)
-            die("usage: bench [SET [RUNS]]");
-        bench_set_make(&set, number);
-        time_set(&set, argc > 2 && atoi(argv[2]) > 0 ? atoi(argv[2]) : bench_runs(&set), &t);
-        printf("%s %d %d %.1f %.1f %d %d\n", set.name, set.dim, set.count, t.best, t.median, t.simplices, t.vertices);
-        free(set.ball);
+        bench_die("no memory");
+    if (argc > 3 && !strcmp(argv[1], "space")) {
+        bench_space_print(block, atoi(argv[2]), argv[3]);
+    } else if (argc > 1 && !strcmp(argv[1], "uniform")) {
+        bench_uniform_print(block);
+    } else if (argc > 1) {
+        print_set(atoi(argv[1]), argc > 2 ? atoi(argv[2]) : 0);
     } else {
         print_sets();
         print_fence();
+        bench_uniform_print(block);
     }
     free(block);
     return 0;

@@ -1,0 +1,256 @@
+/* begin: limits, how much memory, and the first state of a proof. */
+#include "grid.h"
+#include "proof.h"
+
+#include <string.h>
+
+void cage_limits_default(cage_limits *limits, int32_t dim)
+{
+    if (!limits)
+        return;
+    limits->side = CAGE_SIDE_BOTH;
+    limits->start_level = -1;
+    limits->max_level = dim == 2 ? 12 : 8;
+    limits->max_cells = dim == 2 ? 16384 : 131072;
+}
+
+static int32_t limits_check(const cage_limits *limits, int32_t dim)
+{
+    if (limits->side < CAGE_SIDE_INNER || limits->side > CAGE_SIDE_BOTH || limits->max_cells < 2 ||
+        limits->max_cells > 1 << 24)
+        return CAGE_ERROR_ARGUMENT;
+    int64_t of_level = dim == 2 ? 2 : 4, cells = of_level; /* all cells down to the start level, or more than allowed */
+    for (int32_t level = 0; level < limits->start_level && cells <= limits->max_cells; level++) {
+        of_level *= dim == 2 ? 2 : 8;
+        cells += of_level;
+    }
+    if (cells > limits->max_cells)
+        return CAGE_ERROR_ARGUMENT;
+    if (limits->max_level < 0 || limits->max_level > (dim == 2 ? CAGE_LEVEL_MAX_2D : CAGE_LEVEL_MAX_3D))
+        return CAGE_ERROR_ARGUMENT;
+    return limits->start_level < -1 || limits->start_level > limits->max_level ? CAGE_ERROR_ARGUMENT : CAGE_OK;
+}
+
+/* The coarsest level at which the object's farthest ball moves by no more than a third of the radius of a usual collision ball: in coarser
+ * cells the inner balls shrink to little, and what is left has holes everywhere. In space, twice the radius: there a level too fine costs
+ * 8 times as much, and one too coarse is soon found out. */
+static int32_t first_level(const struct cage_proof *proof)
+{
+    const struct cage_side *side = &proof->side[CAGE_INNER];
+    int64_t sum = 0;
+    int32_t reach = 0, level = 0;
+    if (side->objects == 0 || side->obstacles == 0)
+        return 0;
+    for (int32_t j = 0; j < side->obstacles; j++)
+        sum += side->obstacle[j].r;
+    int64_t radius = sum / side->obstacles;
+    for (int32_t a = 0; a < side->objects; a++)
+        reach = side->reach[a] > reach ? side->reach[a] : reach;
+    sum = 0;
+    for (int32_t a = 0; a < side->objects; a++)
+        sum += side->object[a].r;
+    radius += sum / side->objects;
+    struct cage_cell cell = {0, 0, {0, 0, 0}};
+    int64_t most = proof->scene.dim == 2 ? radius / 3 : 2 * radius;
+    while (level < proof->limits.max_level && cage_displacement(proof->graph.fibre->turn(&cell), reach) > most) {
+        proof->graph.fibre->child(&cell, 0, &cell);
+        level++;
+    }
+    /* All cells down to that level: roots (1 + c + ... + c^level) < 2 roots c^level. */
+    int64_t cells = 2 * proof->graph.fibre->roots;
+    for (int32_t i = 0; i < level; i++) {
+        cells *= proof->graph.fibre->children;
+        if (cells > proof->graph.capacity)
+            return i;
+    }
+    return level;
+}
+
+/* What is left of the block is shared out: a quarter for facts, a quarter to hold slices, half to work in. */
+static void share_out(struct cage_proof *proof)
+{
+    size_t left = proof->arena.size - proof->arena.used, quarter = left / 4 / CAGE_ALIGN * CAGE_ALIGN;
+    unsigned char *at = proof->arena.base + proof->arena.used + quarter;
+    proof->arena.size = proof->arena.used + quarter;
+    cage_store_init(&proof->store, at, quarter);
+    cage_arena_init(&proof->scratch, at + quarter, left - 2 * quarter);
+}
+
+static uint64_t fixed_bytes(const cage_scene *scene, const cage_limits *limits)
+{
+    uint64_t objects = (uint64_t)scene->object.inner_count + (uint64_t)scene->object.outer_count;
+    return sizeof(struct cage_proof) + objects * (sizeof(cage_ball) + sizeof(int32_t)) +
+           ((uint64_t)limits->max_cells + CAGE_CELL_ROOT) * sizeof(struct cage_leaf) + 16 * CAGE_ALIGN;
+}
+
+/* Enough for one search. */
+static uint64_t size_of_one(const cage_scene *scene, const cage_limits *limits)
+{
+    uint64_t inner = (uint64_t)scene->object.inner_count * (uint64_t)scene->obstacles.inner_count;
+    uint64_t outer = (uint64_t)scene->object.outer_count * (uint64_t)scene->obstacles.outer_count, pairs = inner > outer ? inner : outer;
+    /* A mixture of two slices: 2 pairs balls, at most 4 triangles each while building; in space usually less than 9 tetrahedra. */
+    uint64_t work = (scene->dim == 2 ? 600 : 1400) * pairs + 32768, facts = 32768 + 64 * (uint64_t)limits->max_cells;
+    return fixed_bytes(scene, limits) + 4 * (work / 2 > facts ? work / 2 : facts); /* < 2^42 */
+}
+
+/* Both sides in space, and enough cells for two searches: one for each CAGE_SECOND_CELLS goes to the second. */
+static bool has_second(const cage_scene *scene, const cage_limits *limits)
+{
+    int32_t level = limits->start_level < 0 ? 0 : limits->start_level, least = 4;
+    while (level-- > 0)
+        least = 8 * least + 4; /* <= max_cells <= 2^24 */
+    return scene->dim == 3 && limits->side == CAGE_SIDE_BOTH && limits->max_cells / CAGE_SECOND_CELLS >= least;
+}
+
+static void share_limits(const cage_limits *limits, cage_limits *first, cage_limits *second)
+{
+    *first = *second = *limits;
+    second->side = CAGE_SIDE_OUTER;
+    second->max_cells = limits->max_cells / CAGE_SECOND_CELLS;
+    first->max_cells -= second->max_cells;
+}
+
+/* The second search has a third of the block. */
+static size_t bytes_of_second(size_t bytes) { return bytes / 3; }
+
+size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits)
+{
+    cage_limits defaults;
+    if (cage_scene_check(scene) != CAGE_OK)
+        return 0;
+    if (!limits) {
+        cage_limits_default(&defaults, scene->dim);
+        limits = &defaults;
+    }
+    if (limits_check(limits, scene->dim) != CAGE_OK)
+        return 0;
+    uint64_t all = size_of_one(scene, limits);
+    if (has_second(scene, limits)) {
+        cage_limits first, second;
+        share_limits(limits, &first, &second);
+        uint64_t other = 3 * size_of_one(scene, &second);
+        all = size_of_one(scene, &first) * 3 / 2;
+        all = (all > other ? all : other) + 4 * CAGE_ALIGN;
+    }
+    return all > SIZE_MAX ? SIZE_MAX : (size_t)all;
+}
+
+/* A block in which the allocation that failed would succeed; a later one of the same step may fail in it. */
+static uint64_t needed_by_one(const struct cage_proof *proof)
+{
+    size_t quarter = proof->store.size, most = 2 * quarter;
+    if (proof->scratch.needed > proof->scratch.size)
+        most = proof->scratch.needed / 2 + CAGE_ALIGN;
+    else if (proof->arena.needed > proof->arena.size)
+        most = quarter + (proof->arena.needed - proof->arena.size) + CAGE_ALIGN;
+    most = most < quarter + quarter / 2 ? quarter + quarter / 2 : most;
+    return proof->arena.size - quarter + 4 * (uint64_t)most + 16 * CAGE_ALIGN;
+}
+
+uint64_t cage_proof_needed(const struct cage_proof *proof)
+{
+    if (!proof->second)
+        return needed_by_one(proof);
+    bool other = proof->second->error == CAGE_ERROR_MEMORY;
+    uint64_t needed = needed_by_one(other ? proof->second : proof);
+    return (other ? 3 * needed : needed + needed / 2) + 4 * CAGE_ALIGN;
+}
+
+static void set_ends(struct cage_proof *proof, const cage_pose *start, const cage_pose *goal)
+{
+    const cage_pose *pose[2] = {start, goal ? goal : start};
+    proof->graph.goal = goal != NULL;
+    memset(proof->graph.cell, 0, CAGE_CELL_ROOT * sizeof *proof->graph.cell);
+    for (int32_t end = 0; end < CAGE_CELL_ROOT; end++) {
+        proof->pose[end] = *pose[end];
+        cage_pose_pivot(pose[end], proof->result.pivot, proof->at[end]);
+        memcpy(proof->graph.cell[end].rotations.q, pose[end]->q, sizeof pose[end]->q);
+        proof->graph.cell[end].parent = -1;
+    }
+    proof->graph.cells = CAGE_CELL_ROOT;
+}
+
+static int32_t begin(struct cage_proof *proof, const cage_pose *start, const cage_pose *goal)
+{
+    const cage_scene *scene = &proof->scene;
+    cage_pivot(&scene->object, proof->result.pivot);
+    for (int32_t i = 0; i < CAGE_SIDES; i++) {
+        int32_t error = cage_side_make(&proof->arena, scene, proof->result.pivot, i == CAGE_INNER ? -1 : 1, &proof->side[i]);
+        if (error != CAGE_OK)
+            return error;
+    }
+    proof->graph.fibre = proof->scene.dim == 2 ? &cage_so2 : &cage_so3;
+    proof->graph.arena = &proof->arena;
+    proof->graph.capacity = proof->limits.max_cells + CAGE_CELL_ROOT;
+    proof->graph.cell = cage_arena_take(&proof->arena, (size_t)proof->graph.capacity, sizeof *proof->graph.cell);
+    if (!proof->graph.cell)
+        return CAGE_ERROR_MEMORY;
+    set_ends(proof, start, goal);
+    int32_t reach = scene->dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
+    for (int32_t end = 0; end < CAGE_CELL_ROOT; end++)
+        for (int32_t k = 0; k < 3; k++)
+            if (proof->at[end][k] < -reach || proof->at[end][k] > reach)
+                return CAGE_ERROR_RANGE;
+    int32_t level = proof->limits.start_level < 0 ? first_level(proof) : proof->limits.start_level;
+    if (!cage_graph_init(&proof->graph, level))
+        return CAGE_ERROR_ARGUMENT;
+    proof->result.level = proof->graph.level;
+    proof->result.cells = proof->graph.cells - CAGE_CELL_ROOT;
+    share_out(proof);
+    if (cage_collides(scene, start, CAGE_SIDE_INNER) == 1)
+        cage_proof_finish(proof, CAGE_IN_COLLISION, CAGE_REASON_START);
+    else if (goal && cage_collides(scene, goal, CAGE_SIDE_INNER) == 1)
+        cage_proof_finish(proof, CAGE_IN_COLLISION, CAGE_REASON_GOAL);
+    return CAGE_OK;
+}
+
+static int32_t begin_one(struct cage_proof **proof, const cage_scene *scene, const cage_pose *start, const cage_pose *goal,
+                         const cage_limits *limits, void *memory, size_t bytes)
+{
+    struct cage_arena arena;
+    cage_arena_init(&arena, memory, bytes);
+    struct cage_proof *made = cage_arena_take(&arena, 1, sizeof *made);
+    if (!made)
+        return CAGE_ERROR_MEMORY;
+    memset(made, 0, sizeof *made);
+    made->arena = arena;
+    made->limits = *limits;
+    made->scene = *scene;
+    *proof = made;
+    return begin(made, start, goal);
+}
+
+int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage_pose *start, const cage_pose *goal,
+                         const cage_limits *limits, void *memory, size_t bytes)
+{
+    if (!proof || !scene || !start || (!memory && bytes))
+        return CAGE_ERROR_ARGUMENT;
+    int32_t error = cage_scene_check(scene);
+    if (error == CAGE_OK)
+        error = cage_pose_check(scene->dim, start);
+    if (error == CAGE_OK && goal)
+        error = cage_pose_check(scene->dim, goal);
+    cage_limits defaults;
+    cage_limits_default(&defaults, scene->dim);
+    if (error == CAGE_OK)
+        error = limits_check(limits ? limits : &defaults, scene->dim);
+    if (error != CAGE_OK)
+        return error;
+    if (!limits)
+        limits = &defaults;
+    bool two = has_second(scene, limits);
+    cage_limits of_first = *limits, of_second;
+    if (two)
+        share_limits(limits, &of_first, &of_second);
+    size_t part = two ? bytes_of_second(bytes) : 0;
+    struct cage_proof *made, *second = NULL;
+    error = begin_one(&made, scene, start, goal, &of_first, memory, bytes - part);
+    if (error == CAGE_OK && two && made->phase != CAGE_PHASE_DONE)
+        error = begin_one(&second, scene, start, goal, &of_second, (unsigned char *)memory + (bytes - part), part);
+    if (error != CAGE_OK)
+        return error;
+    made->second = second;
+    cage_proof_total(made);
+    *proof = made;
+    return CAGE_OK;
+}

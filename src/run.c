@@ -1,0 +1,80 @@
+/* run: the proof of one question as one or two searches, step by step.
+ *
+ * In space two searches take turns: the one that follows the inner side's way out, and an outer one with cells of its own, cut evenly.
+ * The way that the inner slices leave open is often none there, and cutting along it finds out slowly. The
+ * first that has an answer answers for both. */
+#include "proof.h"
+
+/* The second search may take one step in so many, and later one in so many: an escape is found early or hardly at all, a cage takes long. So
+ * may, late, the outer side of the first. */
+enum { EARLY = 16384, SECOND_EARLY = 3, SECOND_LATE = 16, GUIDED_EARLY = 2, GUIDED_LATE = 12 };
+
+static int64_t share(int64_t steps, int32_t early, int32_t late)
+{
+    return steps < EARLY ? steps / early : EARLY / early + (steps - EARLY) / late;
+}
+
+bool cage_proof_spares_outer(const struct cage_proof *proof)
+{
+    return proof->second && proof->result.steps > EARLY && proof->outer_steps > share(proof->result.steps, GUIDED_EARLY, GUIDED_LATE);
+}
+
+/* The search whose turn it is. */
+static struct cage_proof *next_search(struct cage_proof *proof)
+{
+    struct cage_proof *second = proof->second;
+    bool its_turn = second && second->phase != CAGE_PHASE_DONE && second->result.steps < share(proof->result.steps, SECOND_EARLY, SECOND_LATE);
+    return its_turn ? second : proof;
+}
+
+void cage_proof_total(struct cage_proof *proof)
+{
+    const struct cage_proof *second = proof->second;
+    struct cage_result *total = &proof->total;
+    proof->result.peak_bytes = proof->arena.peak + proof->scratch.peak;
+    *total = proof->result;
+    if (!second)
+        return;
+    const struct cage_result *other = &second->result;
+    total->level = other->level > total->level ? other->level : total->level;
+    total->cells += other->cells;
+    total->slices[CAGE_OUTER] += other->slices[CAGE_OUTER];
+    total->gluings[CAGE_OUTER] += other->gluings[CAGE_OUTER];
+    total->mixtures[CAGE_OUTER] += other->mixtures[CAGE_OUTER];
+    total->reached[CAGE_OUTER] += other->reached[CAGE_OUTER];
+    total->balls[CAGE_OUTER] += other->balls[CAGE_OUTER];
+    total->inserted[CAGE_OUTER] += other->inserted[CAGE_OUTER];
+    total->steps += other->steps;
+    total->peak_bytes += second->arena.peak + second->scratch.peak;
+    if (other->path) {
+        total->verdict = other->verdict;
+        total->reason = other->reason;
+        total->path = other->path;
+        total->path_count = other->path_count;
+    }
+}
+
+/* Has the first search an answer, or the second a path? */
+static bool answered(const struct cage_proof *proof)
+{
+    return proof->phase == CAGE_PHASE_DONE || (proof->second && proof->second->result.path);
+}
+
+int32_t cage_prove_run(cage_proof *proof, int64_t steps)
+{
+    if (!proof)
+        return CAGE_ERROR_ARGUMENT;
+    int32_t error = proof->error;
+    for (; steps > 0 && !answered(proof) && error == CAGE_OK; steps--)
+        error = cage_proof_step(next_search(proof));
+    proof->error = error;
+    cage_proof_total(proof);
+    if (error == CAGE_ERROR_MEMORY)
+        proof->total.needed_bytes = cage_proof_needed(proof);
+    return error != CAGE_OK ? error : answered(proof);
+}
+
+const cage_result *cage_prove_result(const cage_proof *proof)
+{
+    return proof ? &proof->total : NULL;
+}
