@@ -43,7 +43,7 @@ build/libcage.so.$(ABI): $(PIC_O)
 	ln -sf libcage.so.$(ABI) build/libcage.so
 
 build/cage: $(HOST_O) build/libcage.a
-	$(CC) $(CFLAGS) $(HOST_O) build/libcage.a -lm -o $@
+	$(CC) $(CFLAGS) $(HOST_O) build/libcage.a -lm -pthread -o $@
 
 demo: build/cage ## prove the example scenes: verdicts as a table, pictures in build/demo
 	sh examples/demo.sh build/cage build/demo

@@ -163,6 +163,20 @@ int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage
  * answer does not depend on how the steps are portioned. */
 int32_t cage_prove_run(cage_proof *proof, int64_t steps);
 
+/* Several cores for one proof. run calls task(data, i, w) once for each i in 0..tasks - 1, in any order, all at once if it can; w is 0 to count - 1,
+ * and no two calls at the same time have the same w. It returns when all have. */
+typedef struct cage_workers {
+    int32_t count; /* at most 64 are used */
+    void (*run)(void *context, int32_t tasks, void (*task)(void *data, int32_t index, int32_t worker), void *data);
+    void *context;
+    void *memory; /* for the workers to share, between calls not used: some 64 times what the largest slice takes */
+    size_t bytes; /* with too few of them the workers help less, or not at all */
+} cage_workers;
+
+/* The same with workers (or null), which make slices and gluings before their turn comes. The answer does not depend on them: every byte of the result
+ * is the same, path and counts included. */
+int32_t cage_prove_run_with(cage_proof *proof, int64_t steps, const cage_workers *workers);
+
 /* The result so far (null for null); verdict is CAGE_UNDEFINED until cage_prove_run returned 1. */
 const cage_result *cage_prove_result(const cage_proof *proof);
 

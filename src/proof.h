@@ -2,6 +2,7 @@
 #ifndef CAGE_PROOF_H
 #define CAGE_PROOF_H
 
+#include "ahead.h"
 #include "graph.h"
 
 /* A breadth-first search over the nodes of one side. */
@@ -15,6 +16,7 @@ struct cage_reach {
 struct cage_proof {
     struct cage_result result; /* of this search */
     struct cage_result total;  /* and of the second one */
+    struct cage_ahead *ahead;  /* while workers help, else null */
     struct cage_proof *second; /* in space, when both sides are asked for: see run.c */
     struct cage_limits limits;
     struct cage_arena arena;   /* what stays: this struct, the graph, facts, the path */
@@ -49,6 +51,9 @@ enum { CAGE_PHASE_DONE = 100 };
 /* The second search may make one cell for so many of the first. */
 enum { CAGE_SECOND_CELLS = 8 };
 
+/* The side that it searches now, or -1. */
+int32_t cage_proof_searching(const struct cage_proof *proof);
+
 /* One step of this search alone. */
 int32_t cage_proof_step(struct cage_proof *proof);
 
@@ -71,6 +76,12 @@ int32_t cage_proof_slice(struct cage_proof *proof, int32_t side, int32_t cell, c
 enum { CAGE_WORKED = 0, CAGE_FOUND = 1, CAGE_CLOSED = 2 };
 
 int32_t cage_search(struct cage_proof *proof, int32_t side);
+
+/* The slice of a cell, made in the arena. */
+int32_t cage_search_make(const struct cage_proof *proof, struct cage_arena *arena, int32_t side, int32_t cell, struct cage_slice *slice);
+
+/* The next neighbour after `after` (-1: the first) of the node's cell that it is not glued with; -1: no more. */
+int32_t cage_search_unglued(const struct cage_proof *proof, int32_t side, const struct cage_node *node, int32_t after);
 
 /* Build the slices of start and goal and locate them: CAGE_FOUND when both are. */
 int32_t cage_search_ends(struct cage_proof *proof, int32_t side);

@@ -197,6 +197,11 @@ static int32_t step(struct cage_proof *proof)
     }
 }
 
+int32_t cage_proof_searching(const struct cage_proof *proof)
+{
+    return proof->phase == INNER ? CAGE_INNER : proof->phase == OUTER ? CAGE_OUTER : -1;
+}
+
 int32_t cage_proof_step(struct cage_proof *proof)
 {
     int32_t error = step(proof);

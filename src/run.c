@@ -60,18 +60,39 @@ static bool answered(const struct cage_proof *proof)
     return proof->phase == CAGE_PHASE_DONE || (proof->second && proof->second->result.path);
 }
 
+static int32_t run(cage_proof *proof, int64_t steps, struct cage_ahead *ahead, const cage_workers *workers)
+{
+    int32_t error = proof->error;
+    for (; steps > 0 && !answered(proof) && error == CAGE_OK; steps--) {
+        if (ahead && cage_ahead_is_due(ahead))
+            cage_ahead_work(ahead, proof, workers);
+        error = cage_proof_step(next_search(proof));
+    }
+    return error;
+}
+
 int32_t cage_prove_run(cage_proof *proof, int64_t steps)
 {
-    if (!proof)
+    return cage_prove_run_with(proof, steps, NULL);
+}
+
+int32_t cage_prove_run_with(cage_proof *proof, int64_t steps, const cage_workers *workers)
+{
+    if (!proof || (workers && (!workers->run || (!workers->memory && workers->bytes))))
         return CAGE_ERROR_ARGUMENT;
-    int32_t error = proof->error;
-    for (; steps > 0 && !answered(proof) && error == CAGE_OK; steps--)
-        error = cage_proof_step(next_search(proof));
-    proof->error = error;
+    struct cage_ahead *ahead = workers ? cage_ahead_make(workers) : NULL;
+    struct cage_proof *second = proof->second;
+    proof->ahead = ahead;
+    if (second)
+        second->ahead = ahead;
+    proof->error = run(proof, steps, ahead, workers);
+    proof->ahead = NULL;
+    if (second)
+        second->ahead = NULL;
     cage_proof_total(proof);
-    if (error == CAGE_ERROR_MEMORY)
+    if (proof->error == CAGE_ERROR_MEMORY)
         proof->total.needed_bytes = cage_proof_needed(proof);
-    return error != CAGE_OK ? error : answered(proof);
+    return proof->error != CAGE_OK ? proof->error : answered(proof);
 }
 
 const cage_result *cage_prove_result(const cage_proof *proof)

@@ -3,7 +3,7 @@
 #include "grid.h"
 #include "proof.h"
 
-static int32_t make(struct cage_proof *proof, int32_t side, int32_t cell, struct cage_slice *slice)
+int32_t cage_search_make(const struct cage_proof *proof, struct cage_arena *arena, int32_t side, int32_t cell, struct cage_slice *slice)
 {
     const struct cage_leaf *leaf = &proof->graph.cell[cell];
     int32_t corner[8][4];
@@ -13,7 +13,16 @@ static int32_t make(struct cage_proof *proof, int32_t side, int32_t cell, struct
         proof->graph.fibre->corners(&leaf->cell, corner);
         cage_corners_of(leaf->rotations.q, corner, &corners);
     }
-    return cage_slice_make_within(&proof->scratch, &proof->side[side], &leaf->rotations, within ? &corners : NULL, slice);
+    return cage_slice_make_within(arena, &proof->side[side], &leaf->rotations, within ? &corners : NULL, slice);
+}
+
+static int32_t make(struct cage_proof *proof, int32_t side, int32_t cell, struct cage_slice *slice)
+{
+    const struct cage_unit *unit = proof->ahead ? cage_ahead_find(proof->ahead, proof, side, cell, -1, 0, &proof->scratch) : NULL;
+    if (!unit)
+        return cage_search_make(proof, &proof->scratch, side, cell, slice);
+    *slice = unit->slice;
+    return CAGE_OK;
 }
 
 static int32_t put(struct cage_proof *proof, int32_t side, int32_t cell, const struct cage_slice *slice)
@@ -33,7 +42,7 @@ static int32_t place_inside(struct cage_proof *proof, const struct cage_slice *o
         return CAGE_OK;
     size_t mark = proof->scratch.used;
     const struct cage_slice *inner = facts[CAGE_INNER].held ? &facts[CAGE_INNER].held->slice : &made;
-    int32_t error = inner == &made ? make(proof, CAGE_INNER, cell, &made) : CAGE_OK;
+    int32_t error = inner == &made ? cage_search_make(proof, &proof->scratch, CAGE_INNER, cell, &made) : CAGE_OK;
     for (int32_t k = 0; k < outer->regions && error == CAGE_OK; k++)
         if (outer->region[k].known)
             facts[CAGE_OUTER].node[k].inside = cage_slice_locate(inner, outer->region[k].point);
@@ -107,9 +116,11 @@ static int32_t glue(struct cage_proof *proof, int32_t side, const struct cage_no
     if (error != CAGE_OK)
         return error;
     size_t mark = proof->scratch.used;
-    struct cage_touch *touch;
-    int32_t count, mixed;
-    error = cage_glue(&proof->scratch, c, d, node->component, &touch, &count, &mixed);
+    const struct cage_unit *unit = proof->ahead ? cage_ahead_find(proof->ahead, proof, side, a, b, node->component, &proof->scratch) : NULL;
+    struct cage_touch *touch = unit ? unit->touch : NULL;
+    int32_t count = unit ? unit->count : 0, mixed = unit ? unit->mixed : 0;
+    if (!unit)
+        error = cage_glue(&proof->scratch, c, d, node->component, &touch, &count, &mixed);
     if (error == CAGE_OK && side == CAGE_OUTER && mixed)
         count = keep_exact(c, d, touch, count);
     if (error == CAGE_OK)
@@ -130,10 +141,9 @@ static bool may_enter(const struct cage_proof *proof, int32_t side, int32_t cell
     return side == CAGE_INNER || proof->corridor == 0 || proof->graph.cell[cell].corridor == proof->corridor;
 }
 
-/* A neighbour of the node's cell that it is not glued with; -1: none. */
-static int32_t unglued(const struct cage_proof *proof, int32_t side, const struct cage_node *node)
+int32_t cage_search_unglued(const struct cage_proof *proof, int32_t side, const struct cage_node *node, int32_t after)
 {
-    int32_t next = cage_graph_neighbour(&proof->graph, node->cell, -1);
+    int32_t next = cage_graph_neighbour(&proof->graph, node->cell, after);
     while (next >= 0 && (!may_enter(proof, side, next) || cage_graph_is_glued(node, next)))
         next = cage_graph_neighbour(&proof->graph, node->cell, next);
     return next;
@@ -299,7 +309,7 @@ int32_t cage_search(struct cage_proof *proof, int32_t side)
             return CAGE_CLOSED;
         struct cage_node *node = reach->open_head;
         int32_t scope = side == CAGE_OUTER && proof->corridor ? proof->corridor : -1;
-        int32_t other = node->settled == -1 || node->settled == scope ? -1 : unglued(proof, side, node);
+        int32_t other = node->settled == -1 || node->settled == scope ? -1 : cage_search_unglued(proof, side, node, -1);
         if (other < 0) {
             node->settled = node->settled == -1 ? -1 : scope;
             reach->open_head = node->next_open;

@@ -6,16 +6,19 @@
 #include <unistd.h>
 
 #include "picture.h"
+#include "threads.h"
 
 #define MIB ((size_t)1 << 20)
 #define FIRST_BLOCK (256 * MIB) /* taken where --memory is not given */
 #define LARGEST_BLOCK (SIZE_MAX / MIB > 4096 ? 4096 * MIB : SIZE_MAX / 2) /* it grows to this */
 #define STEPS_A_TURN 32         /* between two looks at the clock */
+#define STEPS_TOGETHER 1024     /* the same when threads work together */
+#define ALONE 0.03              /* seconds before they do */
 #define MOST_CELLS (1 << 24)    /* that the library takes as a limit */
 
 typedef struct options {
     const char *object, *obstacles, *start, *goal, *svg, *ply;
-    const char *side, *max_level, *max_cells, *memory, *unit;
+    const char *side, *max_level, *max_cells, *memory, *unit, *threads;
     int json, quiet;
 } options;
 
@@ -57,6 +60,8 @@ void host_prove_help(FILE *out)
         "  --max-cells N   cells made at most, up to %d (default %ld in the plane, %ld in space)\n"
         "  --memory BYTES  one block of this size and no more; K, M and G mean 1024, 1024^2, 1024^3.\n"
         "                  Without it the block is 256M, and grows to 4G when the proof needs it\n"
+        "  --threads N     work on so many cores (default: all); the answer and its counts are the same. Each\n"
+        "                  takes memory of its own, 4M to 256M\n"
         "  --unit U        length of a grid unit (default: the finest power of two at which the scene\n"
         "                  fits). Balls between grid points are rounded to the safe side\n"
         "  --json          print one JSON object instead of text\n"
@@ -100,7 +105,7 @@ static const char **value_slot(options *given, const char *name, size_t length)
         { "--svg", &given->svg },             { "--side", &given->side },
         { "--max-level", &given->max_level }, { "--max-cells", &given->max_cells },
         { "--memory", &given->memory },       { "--unit", &given->unit },
-        { "--ply", &given->ply },
+        { "--ply", &given->ply },             { "--threads", &given->threads },
     };
     size_t i;
 
@@ -249,24 +254,35 @@ static void show_progress(const cage_result *result, double seconds)
     (void)fflush(stderr);
 }
 
-/* Runs to the end. Returns cage_prove_run's last answer. */
-static int32_t run_proof(cage_proof *proof, int progress, double begun)
+/* Runs to the end, after a while with threads. Returns the last answer of cage_prove_run. */
+static int32_t run_proof(const host_answer *answer, int32_t threads, int progress, double begun)
 {
-    double shown = begun;
-    int32_t answer;
+    const cage_scene *scene = &answer->grid->scene;
+    const uint64_t inner = (uint64_t)scene->object.inner_count * (uint64_t)scene->obstacles.inner_count;
+    double shown = begun, seen;
+    cage_workers workers;
+    host_threads *crew = NULL;
+    int32_t state;
 
-    while ((answer = cage_prove_run(proof, STEPS_A_TURN)) == 0)
-        if (progress && now() - shown > 0.1) {
-            shown = now();
-            show_progress(cage_prove_result(proof), shown - begun);
+    while ((state = cage_prove_run_with(answer->proof, crew ? STEPS_TOGETHER : STEPS_A_TURN, crew ? &workers : NULL)) == 0) {
+        seen = now();
+        if (crew == NULL && threads > 1 && seen - begun > ALONE) {
+            crew = host_threads_start(threads, inner, &workers);
+            threads = 1; /* once is enough */
         }
+        if (progress && seen - shown > 0.1) {
+            shown = seen;
+            show_progress(cage_prove_result(answer->proof), shown - begun);
+        }
+    }
+    host_threads_stop(crew);
     if (progress && shown > begun)
         (void)fprintf(stderr, "\r%78s\r", "");
-    return answer;
+    return state;
 }
 
 /* One attempt in a block of that size: CAGE_OK, or an error; *needed is then a block that gets further. */
-static int32_t attempt(host_answer *answer, void *block, size_t bytes, int progress, uint64_t *needed)
+static int32_t attempt(host_answer *answer, void *block, size_t bytes, int32_t threads, int progress, uint64_t *needed)
 {
     const host_grid *grid = answer->grid;
     double begun = now();
@@ -276,7 +292,7 @@ static int32_t attempt(host_answer *answer, void *block, size_t bytes, int progr
     state = cage_prove_begin(&answer->proof, &grid->scene, &grid->start,
                              answer->query->has_goal ? &grid->goal : NULL, answer->limits, block, bytes);
     if (state == CAGE_OK) {
-        state = run_proof(answer->proof, progress, begun);
+        state = run_proof(answer, threads, progress, begun);
         answer->result = cage_prove_result(answer->proof);
         *needed = answer->result->needed_bytes;
     }
@@ -286,7 +302,7 @@ static int32_t attempt(host_answer *answer, void *block, size_t bytes, int progr
 
 /* Proves in a block of the size given, or (bytes null) in one that doubles until it is large enough.
  * The block is the caller's to free, whatever the outcome. */
-static int prove(host_answer *answer, const size_t *bytes, int progress, void **block, host_error *error)
+static int prove(host_answer *answer, const size_t *bytes, int32_t threads, int progress, void **block, host_error *error)
 {
     const size_t wanted = cage_prove_size(&answer->grid->scene, answer->limits);
     size_t size = bytes != NULL ? *bytes : wanted > FIRST_BLOCK ? wanted : FIRST_BLOCK;
@@ -298,7 +314,7 @@ static int prove(host_answer *answer, const size_t *bytes, int progress, void **
         *block = malloc(size > 0 ? size : 1);
         if (*block == NULL)
             return host_fail(error, HOST_MEMORY, "memory: a block of %zu bytes was needed and is not to be had", size);
-        state = attempt(answer, *block, size, progress, &needed);
+        state = attempt(answer, *block, size, threads, progress, &needed);
         if (state == CAGE_OK)
             return HOST_OK;
         if (state != CAGE_ERROR_MEMORY)
@@ -371,6 +387,7 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
     cage_limits limits;
     double unit = 0;
     size_t bytes = 0;
+    int32_t threads = host_threads_cores();
     int progress = !given->quiet && isatty(STDERR_FILENO);
     int code = HOST_OK;
 
@@ -378,6 +395,8 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
         code = blame(error, "--unit", host_parse_unit(given->unit, &unit, error));
     if (code == HOST_OK && given->memory != NULL)
         code = blame(error, "--memory", host_parse_bytes(given->memory, &bytes, error));
+    if (code == HOST_OK && given->threads != NULL)
+        code = blame(error, "--threads", host_parse_integer(given->threads, 1, 64, &threads, error));
     if (code == HOST_OK)
         code = read_query(given, query, error);
     if (code == HOST_OK && given->ply != NULL && query->dim != 3)
@@ -397,7 +416,7 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
     answer.query = query;
     answer.grid = grid;
     answer.limits = &limits;
-    code = prove(&answer, given->memory != NULL ? &bytes : NULL, progress, block, error);
+    code = prove(&answer, given->memory != NULL ? &bytes : NULL, threads, progress, block, error);
     return code == HOST_OK ? show_answer(given, &answer, error) : code;
 }
 

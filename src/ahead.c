@@ -1,0 +1,163 @@
+/* ahead: slices and gluings that a search will ask for next, made beforehand by several workers.
+ *
+ * The search itself stays sequential: it takes the same steps, finding some results ready. What is ready depends on the workers, what
+ * a result is does not. */
+#include "proof.h"
+
+/* Near its end scratch is used in earnest, so that memory runs out at the same place. */
+enum { NEAR_END = 4096 };
+
+/* Misses while others are ready. */
+enum { PATIENCE = 3 };
+
+/* Open nodes looked at, and the least memory for a worker. */
+enum { NODES = 64, LEAST = 1 << 16 };
+
+struct cage_ahead *cage_ahead_make(const cage_workers *workers)
+{
+    struct cage_arena all;
+    int32_t count = workers->count > CAGE_WORKERS ? CAGE_WORKERS : workers->count;
+    if (count < 1 || !workers->run)
+        return NULL;
+    cage_arena_init(&all, workers->memory, workers->bytes);
+    struct cage_ahead *ahead = cage_arena_take(&all, 1, sizeof *ahead);
+    size_t each = ahead ? cage_arena_room(&all, 1) / (size_t)count / CAGE_ALIGN * CAGE_ALIGN : 0;
+    if (each < LEAST)
+        return NULL;
+    for (int32_t i = 0; i < count; i++)
+        cage_arena_init(&ahead->arena[i], all.base + all.used + (size_t)i * each, each);
+    ahead->units = ahead->ready = 0;
+    ahead->missed = PATIENCE;
+    return ahead;
+}
+
+bool cage_ahead_is_due(const struct cage_ahead *ahead)
+{
+    return ahead->missed >= PATIENCE || (ahead->missed > 0 && ahead->ready == 0);
+}
+
+static void add(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a, int32_t b, int32_t seed)
+{
+    for (int32_t i = 0; i < ahead->units; i++) {
+        const struct cage_unit *other = &ahead->unit[i];
+        bool same = other->a == a && other->b == b, turned = other->a == b && other->b == a;
+        if (other->proof == proof && other->side == side && (same || turned))
+            return;
+    }
+    struct cage_unit *unit = &ahead->unit[ahead->units++];
+    unit->proof = proof;
+    unit->side = side;
+    unit->a = a;
+    unit->b = b;
+    unit->seed = seed;
+    unit->done = false;
+}
+
+/* What the search does next, as far as that is known: until there are `most` units. */
+static void look(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t most)
+{
+    int32_t side = cage_proof_searching(proof);
+    const struct cage_node *node = side >= 0 ? proof->reach[side].open_head : NULL;
+    for (int32_t n = 0; node && n < NODES && ahead->units < most - 2; n++, node = node->next_open) {
+        int32_t next = cage_search_unglued(proof, side, node, -1);
+        for (; next >= 0 && ahead->units < most - 2; next = cage_search_unglued(proof, side, node, next)) {
+            if (!proof->graph.cell[next].facts[side].held)
+                add(ahead, proof, side, next, -1, 0);
+            if (!proof->graph.cell[node->cell].facts[side].held)
+                add(ahead, proof, side, node->cell, -1, 0);
+            add(ahead, proof, side, node->cell, next, node->component);
+        }
+    }
+}
+
+/* The slice, if there is one already. */
+static const struct cage_slice *slice_of(const struct cage_ahead *ahead, const struct cage_unit *unit, int32_t cell)
+{
+    const struct cage_held *held = unit->proof->graph.cell[cell].facts[unit->side].held;
+    for (int32_t i = 0; i < ahead->units && !held; i++) {
+        const struct cage_unit *other = &ahead->unit[i];
+        if (other->b < 0 && other->done && other->proof == unit->proof && other->side == unit->side && other->a == cell)
+            return &other->slice;
+    }
+    return held ? &held->slice : NULL;
+}
+
+static void work(void *data, int32_t index, int32_t worker)
+{
+    struct cage_ahead *ahead = data;
+    struct cage_unit *unit = &ahead->unit[ahead->first + index];
+    struct cage_arena *arena = &ahead->arena[worker];
+    size_t mark = arena->used;
+    int32_t error = CAGE_ERROR_MEMORY;
+    if (ahead->gluing != (unit->b >= 0))
+        return;
+    arena->peak = mark;
+    if (!ahead->gluing) {
+        error = cage_search_make(unit->proof, arena, unit->side, unit->a, &unit->slice);
+    } else {
+        const struct cage_slice *c = slice_of(ahead, unit, unit->a), *d = slice_of(ahead, unit, unit->b);
+        if (c && d)
+            error = cage_glue(arena, c, d, unit->seed, &unit->touch, &unit->count, &unit->mixed);
+    }
+    unit->done = error == CAGE_OK;
+    unit->used = arena->used - mark;
+    unit->peak = arena->peak - mark;
+    if (error != CAGE_OK)
+        cage_arena_release(arena, mark);
+}
+
+static bool is_leaf(const struct cage_unit *unit, int32_t cell) { return cell < 0 || unit->proof->graph.cell[cell].child == 0; }
+
+/* Drop what was used or can be no more; all of it when memory comes to an end. */
+static void tidy(struct cage_ahead *ahead, int32_t workers)
+{
+    bool full = false;
+    int32_t kept = 0;
+    for (int32_t i = 0; i < workers; i++)
+        full = full || ahead->arena[i].used > ahead->arena[i].size / 2;
+    for (int32_t i = 0; i < ahead->units && !full; i++) {
+        const struct cage_unit *unit = &ahead->unit[i];
+        if (unit->done && is_leaf(unit, unit->a) && is_leaf(unit, unit->b))
+            ahead->unit[kept++] = *unit;
+    }
+    for (int32_t i = 0; i < workers && kept == 0; i++)
+        cage_arena_release(&ahead->arena[i], 0);
+    ahead->units = ahead->first = kept;
+    ahead->missed = 0;
+}
+
+void cage_ahead_work(struct cage_ahead *ahead, const struct cage_proof *proof, const cage_workers *workers)
+{
+    int32_t count = workers->count > CAGE_WORKERS ? CAGE_WORKERS : workers->count;
+    tidy(ahead, count);
+    look(ahead, proof, proof->second ? CAGE_UNITS * 3 / 4 : CAGE_UNITS);
+    if (proof->second)
+        look(ahead, proof->second, CAGE_UNITS);
+    int32_t fresh = ahead->units - ahead->first;
+    for (int32_t half = 0; half < 2 && fresh > 1; half++) {
+        ahead->gluing = half == 1;
+        workers->run(workers->context, fresh, work, ahead);
+    }
+    ahead->ready = 0;
+    for (int32_t i = 0; i < ahead->units; i++)
+        ahead->ready += ahead->unit[i].done;
+}
+
+const struct cage_unit *cage_ahead_find(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a, int32_t b,
+                                        int32_t seed, struct cage_arena *scratch)
+{
+    for (int32_t i = 0; i < ahead->units; i++) {
+        struct cage_unit *unit = &ahead->unit[i];
+        if (!unit->done || unit->proof != proof || unit->side != side || unit->a != a || unit->b != b || (b >= 0 && unit->seed != seed))
+            continue;
+        if (scratch->size - scratch->used < unit->peak + NEAR_END)
+            break;
+        scratch->peak = scratch->peak > scratch->used + unit->peak ? scratch->peak : scratch->used + unit->peak;
+        scratch->used += unit->used;
+        unit->done = false;
+        ahead->ready--;
+        return unit;
+    }
+    ahead->missed++;
+    return NULL;
+}

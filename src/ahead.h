@@ -1,0 +1,46 @@
+/* ahead: slices and gluings that a search will ask for next, made beforehand by several workers. */
+#ifndef CAGE_AHEAD_H
+#define CAGE_AHEAD_H
+
+#include "graph.h"
+
+/* One piece of work, a function of scene and limits alone, and its result in a worker's memory. */
+struct cage_unit {
+    const struct cage_proof *proof;
+    int32_t side;
+    int32_t a;    /* the cell whose slice to build, */
+    int32_t b;    /* or (not -1) the other to glue it with, */
+    int32_t seed; /* beginning with this component */
+    bool done;
+    size_t used, peak; /* what it would have taken from scratch, and left in it */
+    struct cage_slice slice;
+    struct cage_touch *touch;
+    int32_t count, mixed;
+};
+
+enum { CAGE_UNITS = 96, CAGE_WORKERS = 64 };
+
+struct cage_ahead {
+    struct cage_unit unit[CAGE_UNITS];
+    struct cage_arena arena[CAGE_WORKERS];
+    int32_t units;
+    int32_t first;  /* of the units that are new */
+    bool gluing;    /* the second half of the work: pairs of slices, of which some were only just made */
+    int32_t ready;  /* done, and not asked for yet */
+    int32_t missed; /* how often something was asked for that is not here */
+};
+
+/* In the workers' memory; null if there is too little of it for that to be of use. */
+struct cage_ahead *cage_ahead_make(const cage_workers *workers);
+
+/* Is there so little of use left that it is time to look ahead again? */
+bool cage_ahead_is_due(const struct cage_ahead *ahead);
+
+/* Find out what both searches need next, and do it; what is there and may still be asked for stays as long as there is memory. */
+void cage_ahead_work(struct cage_ahead *ahead, const struct cage_proof *proof, const cage_workers *workers);
+
+/* The result, if it is there and would have fitted into scratch, which is left as if it had been worked out in it; else null. */
+const struct cage_unit *cage_ahead_find(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a, int32_t b,
+                                        int32_t seed, struct cage_arena *scratch);
+
+#endif
