@@ -7,8 +7,8 @@
 /* Near its end scratch is used in earnest, so that memory runs out at the same place. */
 enum { NEAR_END = 4096 };
 
-/* Misses while others are ready. */
-enum { PATIENCE = 3 };
+/* Misses before looking ahead again; twice as many each time that hardly anything was found. */
+enum { PATIENCE = 3, LONGEST = 24, WORTHWHILE = 4 };
 
 /* Open nodes looked at, and the least memory for a worker. */
 enum { NODES = 64, LEAST = 1 << 16 };
@@ -26,14 +26,14 @@ struct cage_ahead *cage_ahead_make(const cage_workers *workers)
         return NULL;
     for (int32_t i = 0; i < count; i++)
         cage_arena_init(&ahead->arena[i], all.base + all.used + (size_t)i * each, each);
-    ahead->units = ahead->ready = 0;
-    ahead->missed = PATIENCE;
+    ahead->units = 0;
+    ahead->missed = ahead->patience = PATIENCE;
     return ahead;
 }
 
 bool cage_ahead_is_due(const struct cage_ahead *ahead)
 {
-    return ahead->missed >= PATIENCE || (ahead->missed > 0 && ahead->ready == 0);
+    return ahead->missed >= ahead->patience;
 }
 
 static void add(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a, int32_t b, int32_t seed)
@@ -59,6 +59,8 @@ static void look(struct cage_ahead *ahead, const struct cage_proof *proof, int32
     int32_t side = cage_proof_searching(proof);
     const struct cage_node *node = side >= 0 ? proof->reach[side].open_head : NULL;
     for (int32_t n = 0; node && n < NODES && ahead->units < most - 2; n++, node = node->next_open) {
+        if (node->settled == -1)
+            continue;
         int32_t next = cage_search_unglued(proof, side, node, -1);
         for (; next >= 0 && ahead->units < most - 2; next = cage_search_unglued(proof, side, node, next)) {
             if (!proof->graph.cell[next].facts[side].held)
@@ -133,14 +135,12 @@ void cage_ahead_work(struct cage_ahead *ahead, const struct cage_proof *proof, c
     look(ahead, proof, proof->second ? CAGE_UNITS * 3 / 4 : CAGE_UNITS);
     if (proof->second)
         look(ahead, proof->second, CAGE_UNITS);
-    int32_t fresh = ahead->units - ahead->first;
+    int32_t fresh = ahead->units - ahead->first, longer = 2 * ahead->patience;
+    ahead->patience = fresh >= WORTHWHILE ? PATIENCE : longer < LONGEST ? longer : LONGEST;
     for (int32_t half = 0; half < 2 && fresh > 1; half++) {
         ahead->gluing = half == 1;
         workers->run(workers->context, fresh, work, ahead);
     }
-    ahead->ready = 0;
-    for (int32_t i = 0; i < ahead->units; i++)
-        ahead->ready += ahead->unit[i].done;
 }
 
 const struct cage_unit *cage_ahead_find(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a, int32_t b,
@@ -155,7 +155,6 @@ const struct cage_unit *cage_ahead_find(struct cage_ahead *ahead, const struct c
         scratch->peak = scratch->peak > scratch->used + unit->peak ? scratch->peak : scratch->used + unit->peak;
         scratch->used += unit->used;
         unit->done = false;
-        ahead->ready--;
         return unit;
     }
     ahead->missed++;

@@ -26,8 +26,8 @@ struct cage_ahead {
     int32_t units;
     int32_t first;  /* of the units that are new */
     bool gluing;    /* the second half of the work: pairs of slices, of which some were only just made */
-    int32_t ready;  /* done, and not asked for yet */
     int32_t missed; /* how often something was asked for that is not here */
+    int32_t patience; /* so often it may be */
 };
 
 /* In the workers' memory; null if there is too little of it for that to be of use. */
