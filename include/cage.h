@@ -125,7 +125,7 @@ typedef struct cage_result {
     int64_t balls[2];       /* collision balls of all slices */
     int64_t inserted[2];    /* of these, the ones triangulated (the rest is covered by them) */
     int64_t steps;          /* steps taken */
-    uint64_t peak_bytes;    /* most bytes of the block in use at once, caches not counted */
+    uint64_t peak_bytes;    /* most bytes of the block in use at once, slices held in store and the path not counted; may vary with the block */
     uint64_t needed_bytes;  /* after CAGE_ERROR_MEMORY: the block to try next, larger; the same step may ask for still more */
     int32_t pivot[3];       /* the point of the object that rotations are about, in the object's frame */
     int32_t path_count;     /* poses on the path, 0 where there is none */
@@ -158,7 +158,7 @@ size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits);
 int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage_pose *start,
                          const cage_pose *goal, const cage_limits *limits, void *memory, size_t bytes);
 
-/* Do at most that many steps; a step builds one slice, glues one pair of slices or refines one cell.
+/* Do at most that many steps; a step builds one slice, glues one pair of slices, refines one cell, or writes or shortens one leg of a path.
  * 1: finished, 0: more to do, negative: an error (the result keeps its counts, and needed_bytes). The
  * answer does not depend on how the steps are portioned. */
 int32_t cage_prove_run(cage_proof *proof, int64_t steps);
@@ -166,7 +166,7 @@ int32_t cage_prove_run(cage_proof *proof, int64_t steps);
 /* Several cores for one proof. run calls task(data, i, w) once for each i in 0..tasks - 1, in any order, all at once if it can; w is 0 to count - 1,
  * and no two calls at the same time have the same w. It returns when all have. */
 typedef struct cage_workers {
-    int32_t count; /* at most 64 are used */
+    int32_t count; /* 1 to 64 */
     void (*run)(void *context, int32_t tasks, void (*task)(void *data, int32_t index, int32_t worker), void *data);
     void *context;
     void *memory; /* for the workers to share, between calls not used: some 64 times what the largest slice takes */

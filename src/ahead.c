@@ -16,9 +16,7 @@ enum { NODES = 64, LEAST = 1 << 16 };
 struct cage_ahead *cage_ahead_make(const cage_workers *workers)
 {
     struct cage_arena all;
-    int32_t count = workers->count > CAGE_WORKERS ? CAGE_WORKERS : workers->count;
-    if (count < 1 || !workers->run)
-        return NULL;
+    int32_t count = workers->count;
     cage_arena_init(&all, workers->memory, workers->bytes);
     struct cage_ahead *ahead = cage_arena_take(&all, 1, sizeof *ahead);
     size_t each = ahead ? cage_arena_room(&all, 1) / (size_t)count / CAGE_ALIGN * CAGE_ALIGN : 0;
@@ -130,8 +128,7 @@ static void tidy(struct cage_ahead *ahead, int32_t workers)
 
 void cage_ahead_work(struct cage_ahead *ahead, const struct cage_proof *proof, const cage_workers *workers)
 {
-    int32_t count = workers->count > CAGE_WORKERS ? CAGE_WORKERS : workers->count;
-    tidy(ahead, count);
+    tidy(ahead, workers->count);
     look(ahead, proof, proof->second ? CAGE_UNITS * 3 / 4 : CAGE_UNITS);
     if (proof->second)
         look(ahead, proof->second, CAGE_UNITS);

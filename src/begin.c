@@ -97,9 +97,11 @@ static uint64_t size_of_one(const cage_scene *scene, const cage_limits *limits)
 static bool has_second(const cage_scene *scene, const cage_limits *limits)
 {
     int32_t level = limits->start_level < 0 ? 0 : limits->start_level, least = 4;
+    if (scene->dim != 3 || limits->side != CAGE_SIDE_BOTH)
+        return false;
     while (level-- > 0)
         least = 8 * least + 4; /* <= max_cells <= 2^24 */
-    return scene->dim == 3 && limits->side == CAGE_SIDE_BOTH && limits->max_cells / CAGE_SECOND_CELLS >= least;
+    return limits->max_cells / CAGE_SECOND_CELLS >= least;
 }
 
 static void share_limits(const cage_limits *limits, cage_limits *first, cage_limits *second)

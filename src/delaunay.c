@@ -373,10 +373,10 @@ static int32_t build(struct cage_arena *arena, struct cage_triangulation *t, con
         arena->needed = kept + (expected > room ? expected : 2 * room + 1) * BYTES_PER_SIMPLEX + beside + 4 * CAGE_ALIGN;
         return CAGE_ERROR_MEMORY;
     }
+    size_t most = kept + (size_t)b.simplices * BYTES_PER_SIMPLEX + beside; /* dead slots included */
+    arena->peak = arena->peak > most ? arena->peak : most;
     if (dense)
         compact(t->dim, &b);
-    if (arena->peak < kept + (size_t)b.simplices * BYTES_PER_SIMPLEX + beside)
-        arena->peak = kept + (size_t)b.simplices * BYTES_PER_SIMPLEX + beside;
     t->simplex = cage_arena_take(arena, (size_t)b.simplices, sizeof *b.simplex);
     t->simplices = b.simplices;
     return CAGE_OK;

@@ -258,6 +258,29 @@ START_TEST(the_size_is_enough)
 }
 END_TEST
 
+/* All start levels, with as many cells as they need and one fewer; in sanitized runs no bound may overflow on the way. */
+START_TEST(every_start_level)
+{
+    for (int32_t dim = 2; dim <= 3; dim++) {
+        cage_scene scene = held;
+        int64_t cells = dim == 2 ? 2 : 4, of_level = cells;
+        scene.dim = dim;
+        for (int32_t level = 0; level <= (dim == 2 ? CAGE_LEVEL_MAX_2D : CAGE_LEVEL_MAX_3D); level++) {
+            cage_limits limits;
+            cage_limits_default(&limits, dim);
+            limits.max_level = level;
+            limits.start_level = level;
+            limits.max_cells = (int32_t)(cells < 1 << 24 ? cells : 1 << 24);
+            ck_assert_int_eq(cage_prove_size(&scene, &limits) > 0, cells <= 1 << 24);
+            limits.max_cells--;
+            ck_assert_uint_eq(cage_prove_size(&scene, &limits), 0);
+            of_level *= dim == 2 ? 2 : 8;
+            cells += of_level;
+        }
+    }
+}
+END_TEST
+
 /* With less it begins or it does not; if not, there is no proof, and what does not begin in a block does not in a smaller one. */
 START_TEST(smaller_blocks)
 {
@@ -295,6 +318,7 @@ int main(void)
     tcase_add_test(tests, half_turns_are_refused);
     tcase_add_test(tests, the_arc_is_the_shorter_one);
     tcase_add_test(tests, the_size_is_enough);
+    tcase_add_test(tests, every_start_level);
     tcase_add_test(tests, smaller_blocks);
     return test_main(suite);
 }

@@ -208,8 +208,11 @@ START_TEST(bad_workers_are_refused)
     ck_assert_int_eq(cage_prove_run_with(proof, 1, &workers), CAGE_ERROR_ARGUMENT);
     workers.bytes = 0;
     ck_assert_int_ge(cage_prove_run_with(proof, 1, &workers), 0);
-    workers.count = -1;
-    ck_assert_int_ge(cage_prove_run_with(proof, 1, &workers), 0);
+    for (int32_t count = -1; count <= 96; count++) {
+        workers.count = count;
+        int32_t state = cage_prove_run_with(proof, 1, &workers);
+        ck_assert_msg(count >= 1 && count <= 64 ? state >= 0 : state == CAGE_ERROR_ARGUMENT, "%d workers: %d", (int)count, (int)state);
+    }
     ck_assert_int_eq(cage_prove_run_with(NULL, 1, &workers), CAGE_ERROR_ARGUMENT);
 }
 END_TEST
