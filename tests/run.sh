@@ -19,11 +19,13 @@ for source in tests/test_*.c; do
     add "$test" "build/test/$test"
     add "$test, ASan and UBSan" "$quick CAGE_TEST_SCENES=20 build/sanitized/$test"
 done
-for name in answers wide arena component glue store pose refuse; do
+for name in wide arena component glue store pose refuse; do
     add "test_$name, Valgrind" "$quick CAGE_TEST_SCENES=2 $memcheck build/test/test_$name"
 done
 add "the command, Valgrind" "$memcheck build/cage prove --object examples/walls/plus.xyzr --obstacles examples/walls/walls_R10.xyzr \
   --start 300,320,45 --svg build/test/walls.svg --json"
+add "the command in space, Valgrind" "$memcheck build/cage prove --object examples/space/guest.xyzr \
+  --obstacles examples/space/shell_moved.xyzr --start 1,-2,0.5,0.5,0.1,-0.7,0.5 --threads 2 --ply build/test/shell.ply"
 add "the command" "sh tests/cli.sh build/cage"
 add "the README" "sh tests/readme.sh"
 add "installation" "sh tests/install.sh"

@@ -367,7 +367,7 @@ static void close_in(const asked *a, int32_t room, int rounds, border *known)
 /* The least gap that the library calls closed is where an error shows first: there the oracle looks for a path. */
 START_TEST(thicker_obstacles_free_nothing)
 {
-    int32_t n = scenes_wanted() / 3 + 1, joined = 0, caged = 0, both = 0;
+    int32_t n = scenes_wanted() / 6 + 1, joined = 0, caged = 0, both = 0;
     long double apart = 0;
     for (int32_t seed = 0; seed < n; seed++) {
         asked a, b;
@@ -513,7 +513,7 @@ static void squeeze(const asked *a, const cage_result *right, squeezed *count)
 /* More memory never changes an answer. */
 START_TEST(smaller_blocks_answer_alike)
 {
-    int32_t n = scenes_wanted() / 5 + 1, separated = 0, joined = 0, undecided = 0;
+    int32_t n = scenes_wanted() / 10 + 1, separated = 0, joined = 0, undecided = 0;
     squeezed count = {0, 0, 0};
     for (int32_t seed = 0; seed < n; seed++) {
         asked a;

@@ -160,7 +160,7 @@ static void try_workers(const question *q, uint64_t seed, size_t bytes)
 
 START_TEST(plane_is_the_same)
 {
-    for (int32_t seed = 0; seed < scenes_wanted() / 6 + 1; seed++) {
+    for (int32_t seed = 0; seed < scenes_wanted() / 10 + 1; seed++) {
         scene s;
         scene_random((uint64_t)seed + 500, &s);
         cage_scene view = scene_view(&s);
@@ -177,7 +177,7 @@ END_TEST
 START_TEST(space_is_the_same)
 {
     done_by_workers = 0;
-    for (int32_t seed = 0; seed < scenes_wanted() / 10 + 1; seed++) {
+    for (int32_t seed = 0; seed < scenes_wanted() / 20 + 1; seed++) {
         space_scene s;
         space_random((uint64_t)seed + 500, &s);
         cage_scene view = space_view(&s);

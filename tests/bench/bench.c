@@ -5,6 +5,7 @@
 
 #include "../../src/delaunay.h"
 #include "../../src/fibre.h"
+#include "../../src/prune.h"
 #include "bench.h"
 #include "sets.h"
 
@@ -195,8 +196,24 @@ static double triangulate(struct cage_arena *arena, const cage_ball *ball, int32
     return taken;
 }
 
-/* The triangulations of all slices of a level: [0] of the balls kept, [1] of all balls; slice: seconds to make the slices. */
-static void triangulations(const struct fence *fence, const cage_result *result, int32_t level, double seconds[2], double *slices)
+/* Seconds that choosing the balls to keep takes. */
+static double choose(struct cage_arena *arena, cage_ball *ball, int32_t balls)
+{
+    static int32_t of[OBSTACLES * OBJECTS];
+    struct cage_raster raster;
+    size_t mark = arena->used;
+    double start = bench_now();
+    if (cage_raster_make(arena, 2, ball, balls, &raster) != CAGE_OK)
+        bench_die("cage_raster_make failed");
+    cage_raster_keep(&raster, 2, ball, of, balls);
+    double taken = bench_now() - start;
+    cage_arena_release(arena, mark);
+    return taken;
+}
+
+/* The triangulations of all slices of a level: [0] of the balls kept, [1] of all balls, [2] of the balls kept and the choice of them;
+ * slices: seconds to make the slices. */
+static void triangulations(const struct fence *fence, const cage_result *result, int32_t level, double seconds[3], double *slices)
 {
     static cage_ball ball[OBSTACLES * OBJECTS];
     struct cage_arena arena;
@@ -204,7 +221,7 @@ static void triangulations(const struct fence *fence, const cage_result *result,
     cage_arena_init(&arena, block, BENCH_ROOM);
     if (cage_side_make(&arena, &fence->scene, result->pivot, -1, &side) != CAGE_OK)
         bench_die("cage_side_make failed");
-    seconds[0] = seconds[1] = *slices = 0;
+    seconds[0] = seconds[1] = seconds[2] = *slices = 0;
     for (int32_t face = 0; face < cage_so2.roots; face++)
         for (int32_t at = 0; at < 1 << level; at++) {
             const struct cage_cell cell = {level, face, {at, 0, 0}};
@@ -218,9 +235,12 @@ static void triangulations(const struct fence *fence, const cage_result *result,
                 bench_die("cage_slice_make failed");
             *slices += bench_now() - start;
             seconds[0] += triangulate(&arena, ball, kept_balls(&slice, ball));
-            seconds[1] += triangulate(&arena, ball, bench_all_balls(&side, &slice, ball));
+            int32_t all = bench_all_balls(&side, &slice, ball);
+            seconds[1] += triangulate(&arena, ball, all);
+            seconds[2] += choose(&arena, ball, all);
             cage_arena_release(&arena, mark);
         }
+    seconds[2] += seconds[0];
 }
 
 static void print_fence(void)
@@ -228,7 +248,7 @@ static void print_fence(void)
     static struct fence fence;
     cage_limits limits;
     cage_result result;
-    double seconds[2], ratio[2][3];
+    double seconds[2], ratio[2][4];
     make_fence(&fence);
     printf("\nfence scene, seconds of whole proofs (200 x 40 balls); counts of the inner side\n");
     printf("  %-18s %9s %8s %8s %6s %7s %6s %9s %9s %9s %6s\n", "limits", "verdict", "best", "median", "cells", "slices",
@@ -247,16 +267,17 @@ static void print_fence(void)
         snprintf(name, sizeof name, "%d uniform cells", cells);
         print_proof(name, seconds, &result);
         printf("  %-18s %9s %8.4f %8.4f\n", "  ... as 180 cells", "", seconds[0] * 180 / cells, seconds[1] * 180 / cells);
-        double alone[2], slices;
+        double alone[3], slices;
         triangulations(&fence, &result, level, alone, &slices);
         ratio[level - 6][0] = seconds[1] / alone[0];
         ratio[level - 6][1] = seconds[1] / alone[1];
-        ratio[level - 6][2] = seconds[1] / slices;
+        ratio[level - 6][2] = seconds[1] / alone[2];
+        ratio[level - 6][3] = seconds[1] / slices;
     }
     printf("\nthe same proofs over uniform cells: time divided by that of\n");
-    printf("  %-18s %22s %22s %10s\n", "", "triangulations (kept)", "triangulations (all)", "slices");
+    printf("  %-18s %22s %22s %22s %10s\n", "", "triangulations (kept)", "triangulations (all)", "(kept) and the choice", "slices");
     for (int32_t i = 0; i < 2; i++)
-        printf("  %3d %-14s %22.3f %22.3f %10.3f\n", 128 << i, "uniform cells", ratio[i][0], ratio[i][1], ratio[i][2]);
+        printf("  %3d %-14s %22.3f %22.3f %22.3f %10.3f\n", 128 << i, "uniform cells", ratio[i][0], ratio[i][1], ratio[i][2], ratio[i][3]);
 }
 
 static void print_set(int number, int runs)
