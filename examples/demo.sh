@@ -91,7 +91,7 @@ space peanut chambers_wide CONNECTED left_chamber right_chamber outer
 # These take from five seconds to minutes:
 # space ell pot_closed CAGED in_pot
 # space ell pot_open FREE in_pot '' outer
-# space screw coil FREE home '' outer
+# space screw coil FREE home
 # space dumbbell_large hoop CAGED home
 # space ring link CAGED home
 # space mug eye CAGED home

@@ -107,7 +107,8 @@ typedef struct cage_limits {
     int32_t side;        /* CAGE_SIDE_... */
     int32_t start_level; /* the cells' first level, or -1: chosen from the balls */
     int32_t max_level;   /* 0 to CAGE_LEVEL_MAX */
-    int32_t max_cells;   /* cells ever made: at least those down to start_level (2, 6, 14, ...; in space 4, 36, 292, ...), at most 2^24 */
+    int32_t max_cells;   /* cells ever made: at least those down to start_level (2, 6, 14, ...; in space 4, 36,
+                            292, ...), at most 2^24 */
 } cage_limits;
 
 /* ---- output -------------------------------------------------------------------------------------- */
@@ -125,7 +126,8 @@ typedef struct cage_result {
     int64_t balls[2];       /* collision balls of all slices */
     int64_t inserted[2];    /* of these, the ones triangulated (the rest is covered by them) */
     int64_t steps;          /* steps taken */
-    uint64_t peak_bytes;    /* most bytes of the block in use at once, slices held in store and the path not counted; may vary with the block */
+    uint64_t peak_bytes;    /* most bytes of the block in use at once, slices held in store and the path not
+                               counted; may vary with the block */
     uint64_t needed_bytes;  /* after CAGE_ERROR_MEMORY: the block to try next, larger; the same step may ask for still more */
     int32_t pivot[3];       /* the point of the object that rotations are about, in the object's frame */
     int32_t path_count;     /* poses on the path, 0 where there is none */
@@ -147,8 +149,9 @@ typedef struct cage_proof cage_proof; /* lives at the start of the caller's bloc
 
 void cage_limits_default(cage_limits *limits, int32_t dim);
 
-/* Bytes that are enough for a proof of this scene to begin, at any alignment, and as a rule to finish (if not, see needed_bytes); more
- * memory never changes an answer, it only saves building slices twice. Limits null: the default ones. 0 if the scene or the limits are not valid. */
+/* Bytes that are enough for a proof of this scene to begin, at any alignment, and as a rule to finish (if not, see
+ * needed_bytes); more memory never changes an answer, it only saves building slices twice. Limits null: the default
+ * ones. 0 if the scene or the limits are not valid. */
 size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits);
 
 /* Ask: can the object leave the start (goal null), or get from start to goal? The scene's balls are
@@ -158,23 +161,23 @@ size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits);
 int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage_pose *start,
                          const cage_pose *goal, const cage_limits *limits, void *memory, size_t bytes);
 
-/* Do at most that many steps; a step builds one slice, glues one pair of slices, refines one cell, or writes or shortens one leg of a path.
- * 1: finished, 0: more to do, negative: an error (the result keeps its counts, and needed_bytes). The
- * answer does not depend on how the steps are portioned. */
+/* Do at most that many steps; a step builds one slice, glues one pair of slices, refines one cell, or writes or
+ * shortens one leg of a path. 1: finished, 0: more to do, negative: an error (the result keeps its counts, and
+ * needed_bytes). The answer does not depend on how the steps are portioned. */
 int32_t cage_prove_run(cage_proof *proof, int64_t steps);
 
-/* Several cores for one proof. run calls task(data, i, w) once for each i in 0..tasks - 1, in any order, all at once if it can; w is 0 to count - 1,
- * and no two calls at the same time have the same w. It returns when all have. */
+/* Several cores for one proof. run calls task(data, i, w) once for each i in 0..tasks - 1, in any order, all at once
+ * if it can; w is 0 to count - 1, and no two calls at the same time have the same w. It returns when all have. */
 typedef struct cage_workers {
     int32_t count; /* 1 to 64 */
     void (*run)(void *context, int32_t tasks, void (*task)(void *data, int32_t index, int32_t worker), void *data);
     void *context;
-    void *memory; /* for the workers to share, between calls not used: some 64 times what the largest slice takes */
+    void *memory; /* for the workers to share, between calls not used: some 100 times what the largest slice takes */
     size_t bytes; /* with too few of them the workers help less, or not at all */
 } cage_workers;
 
-/* The same with workers (or null), which make slices and gluings before their turn comes. The answer does not depend on them: every byte of the result
- * is the same, path and counts included. */
+/* The same with workers (or null), which make slices and gluings before their turn comes. The answer does not depend
+ * on them: every byte of the result is the same, path and counts included. */
 int32_t cage_prove_run_with(cage_proof *proof, int64_t steps, const cage_workers *workers);
 
 /* The result so far (null for null); verdict is CAGE_UNDEFINED until cage_prove_run returned 1. */

@@ -1,7 +1,7 @@
 /* ahead: slices and gluings that a search will ask for next, made beforehand by several workers.
  *
- * The search itself stays sequential: it takes the same steps, finding some results ready. What is ready depends on the workers, what
- * a result is does not. */
+ * The search itself stays sequential: it takes the same steps, finding some results ready. What is ready depends on
+ * the workers, what a result is does not. */
 #include "proof.h"
 
 /* Near its end scratch is used in earnest, so that memory runs out at the same place. */
@@ -140,12 +140,13 @@ void cage_ahead_work(struct cage_ahead *ahead, const struct cage_proof *proof, c
     }
 }
 
-const struct cage_unit *cage_ahead_find(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a, int32_t b,
-                                        int32_t seed, struct cage_arena *scratch)
+const struct cage_unit *cage_ahead_find(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a,
+                                        int32_t b, int32_t seed, struct cage_arena *scratch)
 {
     for (int32_t i = 0; i < ahead->units; i++) {
         struct cage_unit *unit = &ahead->unit[i];
-        if (!unit->done || unit->proof != proof || unit->side != side || unit->a != a || unit->b != b || (b >= 0 && unit->seed != seed))
+        if (!unit->done || unit->proof != proof || unit->side != side || unit->a != a || unit->b != b ||
+            (b >= 0 && unit->seed != seed))
             continue;
         if (scratch->size - scratch->used < unit->peak + NEAR_END)
             break;

@@ -40,7 +40,7 @@ bool cage_ahead_is_due(const struct cage_ahead *ahead);
 void cage_ahead_work(struct cage_ahead *ahead, const struct cage_proof *proof, const cage_workers *workers);
 
 /* The result, if it is there and would have fitted into scratch, which is left as if it had been worked out in it; else null. */
-const struct cage_unit *cage_ahead_find(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a, int32_t b,
-                                        int32_t seed, struct cage_arena *scratch);
+const struct cage_unit *cage_ahead_find(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a,
+                                        int32_t b, int32_t seed, struct cage_arena *scratch);
 
 #endif

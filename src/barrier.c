@@ -143,7 +143,8 @@ static void spread(struct cage_view *view, int32_t k)
             return; /* little would be told by what is left */
         for (int32_t i = 0; i <= t->dim; i++) {
             int32_t twin = t->simplex[s].twin[i];
-            if (twin == CAGE_HULL || view->reached[twin >> 2] == number || is_solid(view, twin >> 2) || is_solid_facet(view, s, i))
+            if (twin == CAGE_HULL || view->reached[twin >> 2] == number || is_solid(view, twin >> 2) ||
+                is_solid_facet(view, s, i))
                 continue;
             view->reached[twin >> 2] = number;
             view->stack[depth++] = twin >> 2;

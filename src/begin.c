@@ -31,9 +31,9 @@ static int32_t limits_check(const cage_limits *limits, int32_t dim)
     return limits->start_level < -1 || limits->start_level > limits->max_level ? CAGE_ERROR_ARGUMENT : CAGE_OK;
 }
 
-/* The coarsest level at which the object's farthest ball moves by no more than a third of the radius of a usual collision ball: in coarser
- * cells the inner balls shrink to little, and what is left has holes everywhere. In space, twice the radius: there a level too fine costs
- * 8 times as much, and one too coarse is soon found out. */
+/* The coarsest level at which the object's farthest ball moves by no more than a third of the radius of a usual
+ * collision ball: in coarser cells the inner balls shrink to little, and what is left has holes everywhere. In space,
+ * twice the radius: there a level too fine costs 8 times as much, and one too coarse is soon found out. */
 static int32_t first_level(const struct cage_proof *proof)
 {
     const struct cage_side *side = &proof->side[CAGE_INNER];
@@ -87,8 +87,10 @@ static uint64_t fixed_bytes(const cage_scene *scene, const cage_limits *limits)
 static uint64_t size_of_one(const cage_scene *scene, const cage_limits *limits)
 {
     uint64_t inner = (uint64_t)scene->object.inner_count * (uint64_t)scene->obstacles.inner_count;
-    uint64_t outer = (uint64_t)scene->object.outer_count * (uint64_t)scene->obstacles.outer_count, pairs = inner > outer ? inner : outer;
-    /* A mixture of two slices: 2 pairs balls, at most 4 triangles each while building; in space usually less than 9 tetrahedra. */
+    uint64_t outer = (uint64_t)scene->object.outer_count * (uint64_t)scene->obstacles.outer_count,
+             pairs = inner > outer ? inner : outer;
+    /* A mixture of two slices: 2 pairs balls, at most 4 triangles each while building; in space usually less than 9
+     * tetrahedra. */
     uint64_t work = (scene->dim == 2 ? 600 : 1400) * pairs + 32768, facts = 32768 + 64 * (uint64_t)limits->max_cells;
     return fixed_bytes(scene, limits) + 4 * (work / 2 > facts ? work / 2 : facts); /* < 2^42 */
 }
@@ -247,7 +249,7 @@ int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage
     size_t part = two ? bytes_of_second(bytes) : 0;
     struct cage_proof *made, *second = NULL;
     error = begin_one(&made, scene, start, goal, &of_first, memory, bytes - part);
-    if (error == CAGE_OK && two && made->phase != CAGE_PHASE_DONE)
+    if (error == CAGE_OK && two && !cage_proof_is_done(made))
         error = begin_one(&second, scene, start, goal, &of_second, (unsigned char *)memory + (bytes - part), part);
     if (error != CAGE_OK)
         return error;

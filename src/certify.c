@@ -39,8 +39,8 @@ static bool place(const int32_t q[4], const cage_ball *ball, const int32_t pivot
     return exact;
 }
 
-/* Is the point c at least `apart` away from the segment a b? |differences| < 2^33, so sums of three squares < 2^68 in 128 bits, and
- * their products < 2^136 in 256. */
+/* Is the point c at least `apart` away from the segment a b? |differences| < 2^33, so sums of three squares < 2^68 in
+ * 128 bits, and their products < 2^136 in 256. */
 static bool segment_clear(const int32_t a[3], const int32_t b[3], const int64_t c[3], int64_t apart)
 {
     int64_t u[3], v[3], w[3];
@@ -81,7 +81,8 @@ bool cage_certify_leg(const cage_scene *scene, const int32_t pivot[3], const int
     return true;
 }
 
-/* May the object turn about the pivot at p from q to r, both ends off the arc that is meant by at most 2^-28? Tested from q's end. */
+/* May the object turn about the pivot at p from q to r, both ends off the arc that is meant by at most 2^-28? Tested
+ * from q's end. */
 static bool arc_clear(const cage_scene *scene, const int32_t pivot[3], const int32_t p[3], const int32_t q[4], const int32_t r[4])
 {
     for (int32_t i = 0; i < scene->object.outer_count; i++) {
@@ -93,8 +94,8 @@ static bool arc_clear(const cage_scene *scene, const int32_t pivot[3], const int
         cage_i128 square = cage_i128_of(0);
         for (int32_t k = 0; k < 3; k++)
             square = cage_i128_add(square, cage_i128_mul(moved[k], moved[k]));
-        /* The root rounded up, and three times 0.87 for the rounding of both ends and of the centre; that the ends are off the arc adds less
-         * than three times 2^-5 in space, where |Y| < 2^22, and nothing in the plane. */
+        /* The root rounded up, and three times 0.87 for the rounding of both ends and of the centre; that the ends
+         * are off the arc adds less than three times 2^-5 in space, where |Y| < 2^22, and nothing in the plane. */
         int64_t spare = (int64_t)cage_u128_root(square) + 1 + 3;
         for (int32_t j = 0; j < scene->obstacles.outer_count; j++) {
             const cage_ball *x = &scene->obstacles.outer[j];
@@ -119,8 +120,8 @@ static void lengthen(const int32_t q[4], int64_t out[4])
             out[i] *= 2;
 }
 
-/* A rotation about k / n of the way from q to r: (n - k) q + k r, both of nearly the same length. In the plane it stays on the arc;
- * in space it is off by less than 2 in 2^29, the size of its largest entry: 2^-28. */
+/* A rotation about k / n of the way from q to r: (n - k) q + k r, both of nearly the same length. In the plane it
+ * stays on the arc; in space it is off by less than 2 in 2^29, the size of its largest entry: 2^-28. */
 static void between(const int32_t q[4], const int32_t r[4], int32_t k, int32_t n, int32_t out[4])
 {
     int64_t a[4], b[4], mixed[4], dot = 0, largest = 0;
@@ -149,8 +150,8 @@ static bool ambiguous(const int32_t q[4], const int32_t r[4])
     return dot == 0;
 }
 
-bool cage_certify_turn(const cage_scene *scene, const int32_t pivot[3], const int32_t p[3], const int32_t q[4], const int32_t r[4],
-                       int32_t pieces)
+bool cage_certify_turn(const cage_scene *scene, const int32_t pivot[3], const int32_t p[3], const int32_t q[4],
+                       const int32_t r[4], int32_t pieces)
 {
     for (int32_t n = 1; n <= pieces && !ambiguous(q, r); n *= 4) {
         bool clear = true;

@@ -11,15 +11,17 @@
 bool cage_certify_leg(const cage_scene *scene, const int32_t pivot[3], const int32_t q[4], const int32_t a[3], const int32_t b[3],
                     int32_t spare);
 
-/* May the object turn about its pivot at p from q to r, on the shorter arc, which is cut into at most so many pieces? True is a proof. */
-bool cage_certify_turn(const cage_scene *scene, const int32_t pivot[3], const int32_t p[3], const int32_t q[4], const int32_t r[4],
-                       int32_t pieces);
+/* May the object turn about its pivot at p from q to r, on the shorter arc, which is cut into at most so many pieces?
+ * True is a proof. */
+bool cage_certify_turn(const cage_scene *scene, const int32_t pivot[3], const int32_t p[3], const int32_t q[4],
+                       const int32_t r[4], int32_t pieces);
 
 /* The extent of the scene's outer obstacles along an axis, and the largest distance of a point of the object from its pivot. */
 void cage_certify_extent(const cage_scene *scene, int32_t axis, int32_t *low, int32_t *high);
 int32_t cage_certify_size(const cage_scene *scene, const int32_t pivot[3]);
 
-/* With its pivot at x the object, however turned, is beyond a line (plane) perpendicular to an axis that has all obstacles on its other side. */
+/* With its pivot at x the object, however turned, is beyond a line (plane) perpendicular to an axis that has all
+ * obstacles on its other side. */
 bool cage_certify_beyond(const cage_scene *scene, const int32_t pivot[3], const int32_t x[3]);
 
 #endif

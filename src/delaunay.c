@@ -358,8 +358,8 @@ static bool take_slots(struct cage_arena *arena, int32_t dim, const struct cage_
 }
 
 /* Insert sites from `first` on; the simplices, in slots, stay in the arena, what else was taken is given back. */
-static int32_t build(struct cage_arena *arena, struct cage_triangulation *t, const struct cage_simplex *from, int32_t simplices, int32_t first,
-                     size_t mark, bool dense)
+static int32_t build(struct cage_arena *arena, struct cage_triangulation *t, const struct cage_simplex *from, int32_t simplices,
+                     int32_t first, size_t mark, bool dense)
 {
     struct build b;
     size_t kept = arena->used, peak = arena->peak, beside = bytes_beside(t->dim, t->sites);
@@ -409,8 +409,8 @@ int32_t cage_delaunay(struct cage_arena *arena, int32_t dim, const cage_ball *ba
     return error;
 }
 
-int32_t cage_delaunay_extend(struct cage_arena *arena, const struct cage_triangulation *t, const struct cage_site *const *more, int32_t count,
-                             struct cage_triangulation *out)
+int32_t cage_delaunay_extend(struct cage_arena *arena, const struct cage_triangulation *t, const struct cage_site *const *more,
+                             int32_t count, struct cage_triangulation *out)
 {
     size_t mark = arena->used;
     struct cage_triangulation made = {NULL, NULL, NULL, t->dim, t->sites + count, 0};

@@ -33,10 +33,10 @@ struct cage_triangulation {
 int32_t cage_delaunay(struct cage_arena *arena, int32_t dim, const cage_ball *ball, int32_t count,
                       struct cage_triangulation *out);
 
-/* Insert more sites after those of a triangulation (one of cage_delaunay, not itself extended). Simplices that remain keep their places; a place with v[0] = -1 is no simplex;
- * the others are new and have a new site. out->ball is null. */
-int32_t cage_delaunay_extend(struct cage_arena *arena, const struct cage_triangulation *t, const struct cage_site *const *more, int32_t count,
-                             struct cage_triangulation *out);
+/* Insert more sites after those of a triangulation (one of cage_delaunay, not itself extended). Simplices that remain
+ * keep their places; a place with v[0] = -1 is no simplex; the others are new and have a new site. out->ball is null. */
+int32_t cage_delaunay_extend(struct cage_arena *arena, const struct cage_triangulation *t, const struct cage_site *const *more,
+                             int32_t count, struct cage_triangulation *out);
 
 /* The simplex that contains the grid point, which lies inside the sentinels' simplex; on a facet either will do. */
 int32_t cage_delaunay_locate(const struct cage_triangulation *t, const int32_t p[3], int32_t hint);

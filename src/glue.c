@@ -89,8 +89,10 @@ static bool has_touch(const struct group *group, int32_t side, int32_t k, int32_
     return false;
 }
 
-/* If the orthocentre of the free simplex s of t is in component k and in one of d, these touch. *hint: where to look in c and d. */
-static void add_witness(struct group *group, int32_t side, int32_t k, const struct cage_triangulation *t, int32_t s, int32_t hint[2])
+/* If the orthocentre of the free simplex s of t is in component k and in one of d, these touch. *hint: where to look
+ * in c and d. */
+static void add_witness(struct group *group, int32_t side, int32_t k, const struct cage_triangulation *t, int32_t s,
+                        int32_t hint[2])
 {
     const struct cage_slice *c = group->slice[side], *d = group->slice[1 - side];
     const struct cage_site *v[4];
@@ -100,7 +102,8 @@ static void add_witness(struct group *group, int32_t side, int32_t k, const stru
     if (label_at(c, &centre, &hint[0]) != k)
         return;
     int32_t l = label_at(d, &centre, &hint[1]);
-    if (l == CAGE_COVERED || (k == CAGE_OUTSIDE && l == CAGE_OUTSIDE) || group->seen[1 - side][l] == 2 || has_touch(group, side, k, l) || !off_all(c, &centre) || !off_all(d, &centre))
+    if (l == CAGE_COVERED || (k == CAGE_OUTSIDE && l == CAGE_OUTSIDE) || group->seen[1 - side][l] == 2 ||
+        has_touch(group, side, k, l) || !off_all(c, &centre) || !off_all(d, &centre))
         return;
     const int32_t base[3] = {centre.base->x, centre.base->y, centre.base->z};
     int32_t x[3];
@@ -164,7 +167,8 @@ static int32_t add_by_mixture(struct group *group, int32_t side, int32_t k)
             add_witness(group, side, k, &d->t, d->region[l].deep, hint);
     if (error == CAGE_OK)
         error = add_new_parts(group, side, k, &t, hint);
-    if (error == CAGE_OK && k == CAGE_OUTSIDE && group->seen[1 - side][CAGE_OUTSIDE] != 2 && !has_touch(group, side, k, CAGE_OUTSIDE)) {
+    if (error == CAGE_OK && k == CAGE_OUTSIDE && group->seen[1 - side][CAGE_OUTSIDE] != 2 &&
+        !has_touch(group, side, k, CAGE_OUTSIDE)) {
         const int32_t *a = c->region[CAGE_OUTSIDE].point, *b = d->region[CAGE_OUTSIDE].point;
         add_touch(group, side, k, CAGE_OUTSIDE, a[1] > b[1] ? a : b); /* above both bounding boxes */
     }
@@ -205,8 +209,8 @@ static int32_t glue_group(struct group *group, int32_t *mixed)
     return CAGE_OK;
 }
 
-static int32_t make_group(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, int32_t seed, int32_t room,
-                          struct group *group)
+static int32_t make_group(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, int32_t seed,
+                          int32_t room, struct group *group)
 {
     memset(group, 0, sizeof *group);
     group->arena = arena;

@@ -11,9 +11,10 @@ struct cage_touch {
     int32_t x[3];
 };
 
-/* The touching pairs of components of two slices of the same side of one scene, exact, each once: all of them if seed is
- * CAGE_ALL, else those of component `seed` of c, and of the ones that it is connected with, in turn, by such pairs; but not
- * those of an outside reached in this way, which has too many. *touch is taken from the arena. *mixed: whether a triangulation of balls of both slices was needed. */
+/* The touching pairs of components of two slices of the same side of one scene, exact, each once: all of them if seed
+ * is CAGE_ALL, else those of component `seed` of c, and of the ones that it is connected with, in turn, by such
+ * pairs; but not those of an outside reached in this way, which has too many. *touch is taken from the arena. *mixed:
+ * whether a triangulation of balls of both slices was needed. */
 int32_t cage_glue(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, int32_t seed,
                   struct cage_touch **touch, int32_t *count, int32_t *mixed);
 

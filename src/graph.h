@@ -74,8 +74,8 @@ bool cage_graph_init(struct cage_graph *graph, int32_t level);
 /* Replace a leaf by its children. False when there is no room. */
 bool cage_graph_refine(struct cage_graph *graph, int32_t cell);
 
-/* The next leaf after `after` (-1: the first) whose closed cell shares a facet with that of `cell` or, for start and goal, holds it. -1: no
- * more. Start and goal are not neighbours of each other. */
+/* The next leaf after `after` (-1: the first) whose closed cell shares a facet with that of `cell` or, for start and
+ * goal, holds it. -1: no more. Start and goal are not neighbours of each other. */
 int32_t cage_graph_neighbour(const struct cage_graph *graph, int32_t cell, int32_t after);
 
 bool cage_graph_is_glued(const struct cage_node *node, int32_t with);

@@ -83,8 +83,8 @@ void cage_corners_of(const int32_t q[4], int32_t corner[8][4], struct cage_corne
         int64_t largest = 1;
         for (int32_t k = 0; k < 4; k++)
             largest = p[k] > largest ? p[k] : -p[k] > largest ? -p[k] : largest;
-        /* Largest entry to 2^30..2^31; then real part >= 2^29, as the angle is at most 60 degrees. Entries are off by less than 1, so u by less
-         * than (1 + |u|) 2^-29 and the division's 2^-30. */
+        /* Largest entry to 2^30..2^31; then real part >= 2^29, as the angle is at most 60 degrees. Entries are off by
+         * less than 1, so u by less than (1 + |u|) 2^-29 and the division's 2^-30. */
         uint32_t bits = cage_u64_bits((uint64_t)largest);
         for (int32_t k = 0; k < 4; k++)
             p[k] = bits <= 31 ? p[k] * ((int64_t)1 << (31 - bits)) : p[k] / ((int64_t)1 << (bits - 31));
@@ -105,8 +105,8 @@ int32_t cage_displacement_within(const struct cage_corners *corners, const int32
         }
         most = cage_i128_compare(square, most) > 0 ? square : most;
     }
-    /* 2 A |y| / sqrt(A^2 + |y|^2), A the largest |u x y|. u is off by less than 2^-27, so the result by less than 2 2^21 2^-27, far
-     * below 1. A and |y| are rounded up, the root and the quotient down. */
+    /* 2 A |y| / sqrt(A^2 + |y|^2), A the largest |u x y|. u is off by less than 2^-27, so the result by less than 2
+     * 2^21 2^-27, far below 1. A and |y| are rounded up, the root and the quotient down. */
     int64_t length = 0;
     for (int32_t k = 0; k < 3; k++)
         length += (int64_t)y[k] * y[k];

@@ -16,15 +16,15 @@ void cage_rotation_of(const int32_t q[4], struct cage_rotation *rotation);
  * than 0.71 in the plane and 0.87 in space. */
 void cage_rotate(const struct cage_rotation *rotation, const int32_t y[3], int32_t out[3]);
 
-/* Twice the sine of the angle between two quaternions (that is, the largest |R y - R' y| / |y|), in units of 2^-31, rounded up: at most
- * 2^32 + 17. Only for angles up to 90 degrees is the sine monotone; callers stay below. */
+/* Twice the sine of the angle between two quaternions (that is, the largest |R y - R' y| / |y|), in units of 2^-31,
+ * rounded up: at most 2^32 + 17. Only for angles up to 90 degrees is the sine monotone; callers stay below. */
 int64_t cage_turn(const int32_t q[4], const int32_t other[4]);
 
 /* An upper bound of turn times reach, in grid units: 0 <= reach <= 2^29. */
 int32_t cage_displacement(int64_t turn, int32_t reach);
 
-/* The corners of a cell of space's rotations, seen from its representative: the vector part of conj(q) q_k divided by its real part,
- * in units of 2^-30, off by less than 2^-27. */
+/* The corners of a cell of space's rotations, seen from its representative: the vector part of conj(q) q_k divided by
+ * its real part, in units of 2^-30, off by less than 2^-27. */
 struct cage_corners {
     int64_t u[8][3];
 };
@@ -32,11 +32,11 @@ struct cage_corners {
 /* q_k within 60 degrees of q, as quaternions; entries at most 2^24. */
 void cage_corners_of(const int32_t q[4], int32_t corner[8][4], struct cage_corners *out);
 
-/* An upper bound of |R y - R_c y| for the rotations R in the cell: 2 |y| r / sqrt(1 + r^2), where r is the largest distance of a
- * corner from the axis along y when the cell is projected from the centre of the sphere of quaternions to the plane that touches it
- * at the representative. (There the cell is a polytope, the distance from an axis is convex, and the rotation at u moves y by
- * 2 |u_perp| |y| / sqrt(1 + |u|^2).) |y| <= 2^21. At most
- * cage_displacement of the cell's turn, plus 2. */
+/* An upper bound of |R y - R_c y| for the rotations R in the cell: 2 |y| r / sqrt(1 + r^2), where r is the largest
+ * distance of a corner from the axis along y when the cell is projected from the centre of the sphere of quaternions
+ * to the plane that touches it at the representative. (There the cell is a polytope, the distance from an axis is
+ * convex, and the rotation at u moves y by 2 |u_perp| |y| / sqrt(1 + |u|^2).) |y| <= 2^21. At most cage_displacement
+ * of the cell's turn, plus 2. */
 int32_t cage_displacement_within(const struct cage_corners *corners, const int32_t y[3]);
 
 /* |v| rounded up, entries at most 2^29. */

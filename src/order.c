@@ -32,7 +32,8 @@ static uint32_t curve_position(uint32_t x[3], int32_t dim, uint32_t bits)
     for (uint32_t bit = bits - 1; bit > 0; bit--) {
         uint32_t below = (1u << bit) - 1;
         for (int32_t k = 0; k < dim; k++) {
-            /* Where the bit is set, flip x[0] below it; elsewhere swap x[0] and x[k] there. No branch: it would be a coin toss. */
+            /* Where the bit is set, flip x[0] below it; elsewhere swap x[0] and x[k] there. No branch: it would be a
+             * coin toss. */
             uint32_t set = 0 - (x[k] >> bit & 1), swap = (x[0] ^ x[k]) & below & ~set;
             x[0] ^= swap | (below & set);
             x[k] ^= swap;

@@ -1,8 +1,8 @@
 /* path: decomposable path along the outer way: translations inside a slice, turns between slices, each step certified.
  *
- * Inside a slice the way runs from simplex to simplex of one component: the segment between the orthocentres of two free neighbours
- * is free, and so is that from a free point to the orthocentre of its simplex. Way points are rounded to the grid and the
- * legs certified again (certify.h), the longest that are clear taken first. */
+ * Inside a slice the way runs from simplex to simplex of one component: the segment between the orthocentres of two
+ * free neighbours is free, and so is that from a free point to the orthocentre of its simplex. Way points are rounded
+ * to the grid and the legs certified again (certify.h), the longest that are clear taken first. */
 #include "certify.h"
 #include "proof.h"
 
@@ -67,7 +67,8 @@ static int32_t route(const struct cage_slice *slice, int32_t s, int32_t to, int3
             continue;
         for (int32_t i = 0; i <= t->dim; i++) {
             int32_t next = t->simplex[here].twin[i] >> 2;
-            if (t->simplex[here].twin[i] == CAGE_HULL || from[next] >= 0 || slice->label[next] != label || cage_component_wall(t, here, i))
+            if (t->simplex[here].twin[i] == CAGE_HULL || from[next] >= 0 || slice->label[next] != label ||
+                cage_component_wall(t, here, i))
                 continue;
             from[next] = here;
             queue[count++] = next;
@@ -116,7 +117,9 @@ static struct point beyond(const struct cage_proof *proof, const struct cage_tri
     int64_t pace = ray[axis] > 0 ? ray[axis] : -ray[axis], times = missing > 0 ? (missing + pace - 1) / pace : 0;
     for (int32_t k = 0; k < 3; k++) {
         int64_t at = from.x[k] + ray[k] * times;
-        from.x[k] = at < INT32_MIN ? INT32_MIN : at > INT32_MAX ? INT32_MAX : (int32_t)at; /* if it did not, the leg is not clear */
+        from.x[k] = at < INT32_MIN   ? INT32_MIN
+                    : at > INT32_MAX ? INT32_MAX
+                                     : (int32_t)at; /* if it did not, the leg is not clear */
     }
     return from;
 }
@@ -242,8 +245,8 @@ int32_t cage_path_step(struct cage_proof *proof)
         proof->path[i] = proof->path[k];
         proof->path[k] = pose;
     }
-    return cage_path_check(&proof->scene, &proof->pose[0], proof->graph.goal ? &proof->pose[1] : NULL, proof->result.pivot, proof->path,
-                           proof->path_count) == 1
+    return cage_path_check(&proof->scene, &proof->pose[0], proof->graph.goal ? &proof->pose[1] : NULL, proof->result.pivot,
+                           proof->path, proof->path_count) == 1
                ? 1
                : CAGE_PATH_FAILED;
 }

@@ -96,8 +96,9 @@ static int64_t top(cage_i128 a, uint32_t drop)
     return cage_i128_negative(a) ? -size : size;
 }
 
-/* The sign of denominator * triple + sum of offset_k * normal_k from the top bits of denominator and offset, 0 if these do not tell:
- * with so many bits dropped that those left are < 2^62 and products < 2^125, each term is off by less than |triple| or |normal_k|. */
+/* The sign of denominator * triple + sum of offset_k * normal_k from the top bits of denominator and offset, 0 if
+ * these do not tell: with so many bits dropped that those left are < 2^62 and products < 2^125, each term is off by
+ * less than |triple| or |normal_k|. */
 static int32_t side_by_top_bits(const struct cage_centre *centre, const int64_t normal[3], cage_i128 triple)
 {
     cage_i128 most = centre->denominator, size = cage_i128_abs(triple);
@@ -231,7 +232,8 @@ bool cage_centre_off(int32_t dim, const struct cage_centre *centre, const struct
     return cage_norm_compare(n, cage_i128_scale(centre->denominator, ball->r)) > 0;
 }
 
-/* Divide all entries (negative ones at least -most) by a power of two, rounding down, so that they are at most 2^bits in magnitude. */
+/* Divide all entries (negative ones at least -most) by a power of two, rounding down, so that they are at most 2^bits
+ * in magnitude. */
 static void round_down(int32_t rows, int64_t *a, int64_t most, uint32_t bits)
 {
     for (int32_t i = 0; i < rows * rows; i++)
@@ -241,11 +243,12 @@ static void round_down(int32_t rows, int64_t *a, int64_t most, uint32_t bits)
         a[i] = a[i] >= 0 ? a[i] >> drop : -(((-a[i] - 1) >> drop) + 1);
 }
 
-/* At the point with barycentric coordinates l the powers, weighed by l, add up to sum_{i<j} l_i l_j square_ij - sum_i l_i weight_i: if that
- * is nowhere positive, one of them never is. Times 2, and homogeneous since the l add up to 1: the quadratic form of the matrix
- * a_ii = 2 weight_i, a_ij = weight_i + weight_j - square_ij has to be copositive. (For two balls:
- * square_01 <= (r_0 + r_1)^2.) For three rows, whose 2 x 2 parts are copositive: iff the determinant is not negative or an entry
- * of the adjugate is (K. P. Hadeler, "On copositive matrices", Linear Algebra Appl. 49, 1983). */
+/* At the point with barycentric coordinates l the powers, weighed by l, add up to sum_{i<j} l_i l_j square_ij - sum_i
+ * l_i weight_i: if that is nowhere positive, one of them never is. Times 2, and homogeneous since the l add up to 1:
+ * the quadratic form of the matrix a_ii = 2 weight_i, a_ij = weight_i + weight_j - square_ij has to be copositive.
+ * (For two balls: square_01 <= (r_0 + r_1)^2.) For three rows, whose 2 x 2 parts are copositive: iff the determinant
+ * is not negative or an entry of the adjugate is (K. P. Hadeler, "On copositive matrices", Linear Algebra Appl. 49,
+ * 1983). */
 bool cage_edges_covered(int32_t count, const int64_t square[3], const int64_t weight[3])
 {
     int64_t a[3][3], most = 0; /* < 2^63 */
@@ -285,8 +288,9 @@ bool cage_edges_covered(int32_t count, const int64_t square[3], const int64_t we
     return negative || !cage_i128_negative(det);
 }
 
-/* As above with four rows. Entries are rounded down to 28 bits; if what is left is positive semidefinite (leading minors), the matrix itself, larger
- * in every entry, is copositive. Minors of two rows < 2^57, of three < 2^87, the determinant < 6 2^114. */
+/* As above with four rows. Entries are rounded down to 28 bits; if what is left is positive semidefinite (leading
+ * minors), the matrix itself, larger in every entry, is copositive. Minors of two rows < 2^57, of three < 2^87, the
+ * determinant < 6 2^114. */
 bool cage_tetrahedron_covered(int64_t square[4][4], const int64_t weight[4])
 {
     int64_t a[4][4], most = 0;
@@ -310,7 +314,8 @@ bool cage_tetrahedron_covered(int64_t square[4][4], const int64_t weight[4])
             upper[i][k] = a[0][i] * a[1][k] - a[0][k] * a[1][i];
             lower[i][k] = a[2][i] * a[3][k] - a[2][k] * a[3][i];
         }
-    if (a[0][0] <= 0 || upper[0][1] <= 0 || cage_i128_sign(cage_mix(upper[1][2], a[2][0], upper[0][2], a[2][1], upper[0][1], a[2][2])) <= 0)
+    if (a[0][0] <= 0 || upper[0][1] <= 0 ||
+        cage_i128_sign(cage_mix(upper[1][2], a[2][0], upper[0][2], a[2][1], upper[0][1], a[2][2])) <= 0)
         return false;
     cage_i128 det = cage_mix(upper[0][1], lower[2][3], upper[0][2], lower[1][3], upper[0][3], lower[1][2]);
     det = cage_i128_add(det, cage_mix(upper[1][2], lower[0][3], upper[1][3], lower[0][2], upper[2][3], lower[0][1]));

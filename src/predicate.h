@@ -116,7 +116,8 @@ void cage_orthocentre(int32_t dim, const struct cage_site *const v[4], struct ca
 /* The sign of p, the power of that orthocentre: is the simplex free? Degree 6 (plane) or 8 (space). No sentinels. */
 int32_t cage_centre_power(const struct cage_centre *centre);
 
-/* Is the orthocentre off the closed ball? Components of the distance times the denominator: < 2^95 in the plane, 2^108 in space. */
+/* Is the orthocentre off the closed ball? Components of the distance times the denominator: < 2^95 in the plane,
+ * 2^108 in space. */
 bool cage_centre_off(int32_t dim, const struct cage_centre *centre, const struct cage_site *ball);
 
 /* The orientation determinant of a positive simplex: twice (plane) or 6 times (space) its volume. */
@@ -131,9 +132,9 @@ int32_t cage_facet_power(int32_t dim, const struct cage_site *const facet[3]);
 /* Is w closer than orthogonal to the smallest orthosphere of the facet? A tie is not closer. */
 bool cage_facet_attached(int32_t dim, const struct cage_site *const facet[3], const struct cage_site *w);
 
-/* Is every edge (count 2) or triangle (3) with squared edges up to these and weights (squared radii) of at least those proved to
- * lie in the union of its own closed balls? No proof is not a disproof, but nearly. square[i]: of the edge opposite vertex i (count 2:
- * square[0]), at most 2^62; weight: at most 2^60 in magnitude, negative for no ball. */
+/* Is every edge (count 2) or triangle (3) with squared edges up to these and weights (squared radii) of at least
+ * those proved to lie in the union of its own closed balls? No proof is not a disproof, but nearly. square[i]: of the
+ * edge opposite vertex i (count 2: square[0]), at most 2^62; weight: at most 2^60 in magnitude, negative for no ball. */
 bool cage_edges_covered(int32_t count, const int64_t square[3], const int64_t weight[3]);
 
 /* The same for a tetrahedron: square[i][k] of the edge between vertices i and k. */

@@ -46,8 +46,6 @@ struct cage_proof {
     int32_t path_at, path_kept; /* while it is shortened: the pose that comes next, and how many are kept */
 };
 
-enum { CAGE_PHASE_DONE = 100 };
-
 /* The second search may make one cell for so many of the first. */
 enum { CAGE_SECOND_CELLS = 8 };
 
@@ -58,6 +56,8 @@ int32_t cage_proof_searching(const struct cage_proof *proof);
 int32_t cage_proof_step(struct cage_proof *proof);
 
 int32_t cage_proof_finish(struct cage_proof *proof, int32_t verdict, int32_t reason);
+
+bool cage_proof_is_done(const struct cage_proof *proof);
 
 /* Has its outer side had its share of the steps? */
 bool cage_proof_spares_outer(const struct cage_proof *proof);
@@ -78,7 +78,8 @@ enum { CAGE_WORKED = 0, CAGE_FOUND = 1, CAGE_CLOSED = 2 };
 int32_t cage_search(struct cage_proof *proof, int32_t side);
 
 /* The slice of a cell, made in the arena. */
-int32_t cage_search_make(const struct cage_proof *proof, struct cage_arena *arena, int32_t side, int32_t cell, struct cage_slice *slice);
+int32_t cage_search_make(const struct cage_proof *proof, struct cage_arena *arena, int32_t side, int32_t cell,
+                         struct cage_slice *slice);
 
 /* The next neighbour after `after` (-1: the first) of the node's cell that it is not glued with; -1: no more. */
 int32_t cage_search_unglued(const struct cage_proof *proof, int32_t side, const struct cage_node *node, int32_t after);
@@ -92,9 +93,10 @@ void cage_search_anew(struct cage_proof *proof, int32_t side);
 /* The same, and reach what the known edges lead to. */
 void cage_search_known(struct cage_proof *proof, int32_t side);
 
-/* Which cell of the inner way to cut: in space the coarsest from where the outer search stops; in the plane, at the stop, the coarser of
- * the last cell it reached and the first it did not; if neither can be cut, the coarsest beyond. (Up to there the way is real: nothing to be gained.) -1: none
- * can be cut. *stop: the node of the way where the outer search stops. */
+/* Which cell of the inner way to cut: in space the coarsest from where the outer search stops; in the plane, at the
+ * stop, the coarser of the last cell it reached and the first it did not; if neither can be cut, the coarsest beyond.
+ * (Up to there the way is real: nothing to be gained.) -1: none can be cut. *stop: the node of the way where the
+ * outer search stops. */
 int32_t cage_refine_choose(const struct cage_proof *proof, struct cage_node *target, struct cage_node **stop);
 
 /* Without an inner way: the coarsest leaf that the outer search has reached, or the coarsest of all; -1: none can be cut. */

@@ -12,7 +12,7 @@
  * searched anew over them after every refinement. */
 #include "proof.h"
 
-enum { START = 0, INNER, OUTER, REFINE, PATH, SHORTEN, DONE = CAGE_PHASE_DONE };
+enum { START = 0, INNER, OUTER, REFINE, PATH, SHORTEN, DONE };
 
 /* Without a way to follow, cells are cut evenly; that stops so many levels before the finest. */
 enum { UNGUIDED = 3 };
@@ -23,6 +23,11 @@ int32_t cage_proof_finish(struct cage_proof *proof, int32_t verdict, int32_t rea
     proof->result.reason = reason;
     proof->phase = DONE;
     return CAGE_OK;
+}
+
+bool cage_proof_is_done(const struct cage_proof *proof)
+{
+    return proof->phase == DONE;
 }
 
 /* The inner side can do no more: outer searches over all cells, cut evenly where they have come. */
@@ -70,7 +75,8 @@ static int32_t step_start(struct cage_proof *proof)
     /* A search that begins outside sees everything; one that begins in a narrow place may close soon. */
     const int32_t *label = proof->label[side];
     /* What does not collide is off the inner balls; were it not so, nothing may be concluded from it. */
-    if (side == CAGE_INNER && (label[CAGE_CELL_START] == CAGE_COVERED || (proof->graph.goal && label[CAGE_CELL_GOAL] == CAGE_COVERED)))
+    if (side == CAGE_INNER &&
+        (label[CAGE_CELL_START] == CAGE_COVERED || (proof->graph.goal && label[CAGE_CELL_GOAL] == CAGE_COVERED)))
         return cage_proof_finish(proof, CAGE_UNDEFINED, CAGE_REASON_LEVEL);
     proof->origin = proof->graph.goal && label[CAGE_CELL_START] == CAGE_OUTSIDE && label[CAGE_CELL_GOAL] != CAGE_OUTSIDE;
     proof->phase = side == CAGE_INNER ? INNER : OUTER;
@@ -162,8 +168,8 @@ static int32_t step_path(struct cage_proof *proof)
 
 static bool path_is_clear(const struct cage_proof *proof)
 {
-    return cage_path_check(&proof->scene, &proof->pose[0], proof->graph.goal ? &proof->pose[1] : NULL, proof->result.pivot, proof->path,
-                           proof->path_count) == 1;
+    return cage_path_check(&proof->scene, &proof->pose[0], proof->graph.goal ? &proof->pose[1] : NULL, proof->result.pivot,
+                           proof->path, proof->path_count) == 1;
 }
 
 static int32_t step_shorten(struct cage_proof *proof)

@@ -17,7 +17,8 @@ static void lay(int32_t dim, const cage_ball *ball, int32_t count, struct cage_r
     }
     int32_t pixels = dim == 2 ? PIXELS_2D : PIXELS_3D, extent = 0; /* high - low <= 2^30 */
     int32_t least = dim == 2 ? PIXELS_2D / 8 : PIXELS_3D / 4;
-    while (pixels > least && pixels * pixels / 64 / 8 * (dim == 2 ? 1 : pixels) > count) /* no more words than a few for each ball */
+    while (pixels > least &&
+           pixels * pixels / 64 / 8 * (dim == 2 ? 1 : pixels) > count) /* no more words than a few for each ball */
         pixels /= 2;
     int32_t limit = pixels - 2 * MARGIN - 1;
     for (int32_t k = 0; k < dim; k++)
@@ -115,7 +116,8 @@ static bool blocks_cover(const struct cage_raster *raster, int32_t dim, const ca
     struct span span = span_of((at[0] - gap) >> 3, (at[0] + gap) >> 3);
     int32_t first = (at[1] - gap) >> 3, rows = ((at[1] + gap) >> 3) - first + 1;
     for (int32_t z = at[2] - deep; z <= at[2] + deep; z++) {
-        const uint64_t *row = raster->blocks + ((size_t)z * (size_t)raster->block_rows + (size_t)first) * (size_t)raster->block_row;
+        const uint64_t *row =
+            raster->blocks + ((size_t)z * (size_t)raster->block_rows + (size_t)first) * (size_t)raster->block_row;
         for (int32_t b = 0; b < rows; b++, row += raster->block_row)
             if (!all_set(row, row, span))
                 return false;

@@ -1,10 +1,11 @@
 /* prune: leave out balls that cannot touch the free space, before anything is triangulated.
  *
- * A raster of square pixels (cubes) is laid over all balls. A pixel that lies in a single ball is covered. A ball is kept iff
- * it may meet a pixel that is not covered. Then, exactly: every component of the complement of all balls is a component
- * of the complement of the kept ones. (It lies in uncovered closed pixels; on these the two unions agree; and
- * the border of a covered pixel lies in a ball that meets its uncovered neighbour too, hence is kept, so nothing leaks across.) The other
- * components of the kept balls lie inside covered pixels: cage_raster_covers tells these, by any one of their points. */
+ * A raster of square pixels (cubes) is laid over all balls. A pixel that lies in a single ball is covered. A ball is
+ * kept iff it may meet a pixel that is not covered. Then, exactly: every component of the complement of all balls is
+ * a component of the complement of the kept ones. (It lies in uncovered closed pixels; on these the two unions agree;
+ * and the border of a covered pixel lies in a ball that meets its uncovered neighbour too, hence is kept, so nothing
+ * leaks across.) The other components of the kept balls lie inside covered pixels: cage_raster_covers tells these, by
+ * any one of their points. */
 #ifndef CAGE_PRUNE_H
 #define CAGE_PRUNE_H
 

@@ -1,8 +1,8 @@
 /* refine: which cell to cut when the inner side has found a way that the outer side has not. */
 #include "proof.h"
 
-/* In the plane a cell where the two sides part is cut unless it is finer than the coarsest beyond by more levels than this. In space such
- * cells lie along a surface, and cutting these first would resolve it without end. */
+/* In the plane a cell where the two sides part is cut unless it is finer than the coarsest beyond by more levels than
+ * this. In space such cells lie along a surface, and cutting these first would resolve it without end. */
 enum { LEAD = 1 };
 
 static bool refinable(const struct cage_proof *proof, int32_t cell)

@@ -12,7 +12,8 @@ static void mark_slice(const struct cage_slice *slice, const struct cage_facts *
         for (int32_t j = 0; j < count[1]; j++)
             for (int32_t i = 0; i < count[0]; i++) {
                 size_t at = ((size_t)k * (size_t)count[1] + (size_t)j) * (size_t)count[0] + (size_t)i;
-                const int64_t wide[3] = {origin[0] + (int64_t)pitch * i, origin[1] + (int64_t)pitch * j, origin[2] + (int64_t)pitch * k};
+                const int64_t wide[3] = {origin[0] + (int64_t)pitch * i, origin[1] + (int64_t)pitch * j,
+                                         origin[2] + (int64_t)pitch * k};
                 if (mask[at] || wide[0] < -reach || wide[0] > reach || wide[1] < -reach || wide[1] > reach || wide[2] < -reach ||
                     wide[2] > reach)
                     continue;

@@ -1,12 +1,12 @@
 /* run: the proof of one question as one or two searches, step by step.
  *
- * In space two searches take turns: the one that follows the inner side's way out, and an outer one with cells of its own, cut evenly.
- * The way that the inner slices leave open is often none there, and cutting along it finds out slowly. The
- * first that has an answer answers for both. */
+ * In space two searches take turns: the one that follows the inner side's way out, and an outer one with cells of its
+ * own, cut evenly. The way that the inner slices leave open is often none there, and cutting along it finds out
+ * slowly. The first that has an answer answers for both. */
 #include "proof.h"
 
-/* The second search may take one step in so many, and later one in so many: an escape is found early or hardly at all, a cage takes long. So
- * may, late, the outer side of the first. */
+/* The second search may take one step in so many, and later one in so many: an escape is found early or hardly at
+ * all, a cage takes long. So may, late, the outer side of the first. */
 enum { EARLY = 16384, SECOND_EARLY = 3, SECOND_LATE = 16, GUIDED_EARLY = 2, GUIDED_LATE = 12 };
 
 static int64_t share(int64_t steps, int32_t early, int32_t late)
@@ -16,14 +16,16 @@ static int64_t share(int64_t steps, int32_t early, int32_t late)
 
 bool cage_proof_spares_outer(const struct cage_proof *proof)
 {
-    return proof->second && proof->result.steps > EARLY && proof->outer_steps > share(proof->result.steps, GUIDED_EARLY, GUIDED_LATE);
+    return proof->second && proof->result.steps > EARLY &&
+           proof->outer_steps > share(proof->result.steps, GUIDED_EARLY, GUIDED_LATE);
 }
 
 /* The search whose turn it is. */
 static struct cage_proof *next_search(struct cage_proof *proof)
 {
     struct cage_proof *second = proof->second;
-    bool its_turn = second && second->phase != CAGE_PHASE_DONE && second->result.steps < share(proof->result.steps, SECOND_EARLY, SECOND_LATE);
+    bool its_turn = second && !cage_proof_is_done(second) &&
+                    second->result.steps < share(proof->result.steps, SECOND_EARLY, SECOND_LATE);
     return its_turn ? second : proof;
 }
 
@@ -57,7 +59,7 @@ void cage_proof_total(struct cage_proof *proof)
 /* Has the first search an answer, or the second a path? */
 static bool answered(const struct cage_proof *proof)
 {
-    return proof->phase == CAGE_PHASE_DONE || (proof->second && proof->second->result.path);
+    return cage_proof_is_done(proof) || (proof->second && proof->second->result.path);
 }
 
 static int32_t run(cage_proof *proof, int64_t steps, struct cage_ahead *ahead, const cage_workers *workers)
@@ -78,7 +80,8 @@ int32_t cage_prove_run(cage_proof *proof, int64_t steps)
 
 int32_t cage_prove_run_with(cage_proof *proof, int64_t steps, const cage_workers *workers)
 {
-    if (!proof || (workers && (workers->count < 1 || workers->count > CAGE_WORKERS || !workers->run || (!workers->memory && workers->bytes))))
+    if (!proof || (workers && (workers->count < 1 || workers->count > CAGE_WORKERS || !workers->run ||
+                               (!workers->memory && workers->bytes))))
         return CAGE_ERROR_ARGUMENT;
     struct cage_ahead *ahead = workers ? cage_ahead_make(workers) : NULL;
     struct cage_proof *second = proof->second;

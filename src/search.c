@@ -3,7 +3,8 @@
 #include "grid.h"
 #include "proof.h"
 
-int32_t cage_search_make(const struct cage_proof *proof, struct cage_arena *arena, int32_t side, int32_t cell, struct cage_slice *slice)
+int32_t cage_search_make(const struct cage_proof *proof, struct cage_arena *arena, int32_t side, int32_t cell,
+                         struct cage_slice *slice)
 {
     const struct cage_leaf *leaf = &proof->graph.cell[cell];
     int32_t corner[8][4];
@@ -116,7 +117,8 @@ static int32_t glue(struct cage_proof *proof, int32_t side, const struct cage_no
     if (error != CAGE_OK)
         return error;
     size_t mark = proof->scratch.used;
-    const struct cage_unit *unit = proof->ahead ? cage_ahead_find(proof->ahead, proof, side, a, b, node->component, &proof->scratch) : NULL;
+    const struct cage_unit *unit =
+        proof->ahead ? cage_ahead_find(proof->ahead, proof, side, a, b, node->component, &proof->scratch) : NULL;
     struct cage_touch *touch = unit ? unit->touch : NULL;
     int32_t count = unit ? unit->count : 0, mixed = unit ? unit->mixed : 0;
     if (!unit)
@@ -162,7 +164,8 @@ static void enqueue(struct cage_reach *reach, struct cage_node *node)
     reach->tail = node;
 }
 
-static void discover(struct cage_proof *proof, int32_t side, struct cage_node *node, struct cage_node *from, struct cage_edge *via)
+static void discover(struct cage_proof *proof, int32_t side, struct cage_node *node, struct cage_node *from,
+                     struct cage_edge *via)
 {
     struct cage_reach *reach = &proof->reach[side];
     if (node->seen == reach->number || !is_live(proof, node))

@@ -39,7 +39,8 @@ static int32_t collide(const struct cage_side *side, const struct cage_part *par
 }
 
 /* Components of the kept balls that are none of all balls become covered; the others move up. */
-static void drop_phantoms(const struct cage_triangulation *t, const struct cage_raster *raster, struct cage_components *c, int32_t *now)
+static void drop_phantoms(const struct cage_triangulation *t, const struct cage_raster *raster, struct cage_components *c,
+                          int32_t *now)
 {
     int32_t count = 0;
     for (int32_t k = 0; k < c->count; k++) {

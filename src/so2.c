@@ -1,8 +1,8 @@
 /* so2: the rotations of the plane as a fibre: arcs of the circle of half angles.
  *
- * Half angles modulo 180 degrees, as quaternions (w, z) on two faces of the square max(|w|, |z|) = 1: w = 1 and z = 1 (turned by 90
- * degrees of half angle). On a face runs t in [-1, 1], taken to t (|t| + 2) / 3 so that cells of one level turn by nearly
- * the same angle. Along the circle the cells of level L are numbered 0..2^(L+1) - 1. */
+ * Half angles modulo 180 degrees, as quaternions (w, z) on two faces of the square max(|w|, |z|) = 1: w = 1 and z = 1
+ * (turned by 90 degrees of half angle). On a face runs t in [-1, 1], taken to t (|t| + 2) / 3 so that cells of one
+ * level turn by nearly the same angle. Along the circle the cells of level L are numbered 0..2^(L+1) - 1. */
 #include "fibre.h"
 #include "grid.h"
 

@@ -1,9 +1,10 @@
 /* so3: the rotations of space as a fibre: cells of the cube of quaternions.
  *
- * Quaternions up to sign and scale on four faces of the cube max(|w|, |x|, |y|, |z|) = 1: on face f entry f is 1, and the other three,
- * in their order, run t in [-1, 1], taken to t (|t| + 2) / 3 so that cells of one level turn by nearly the same angle. A box of
- * a face is a convex polytope of rotations, as central projection keeps lines: the arc between two of its rotations stays
- * inside, and the rotation farthest from the representative is a corner, at most 60 degrees of half angle away. */
+ * Quaternions up to sign and scale on four faces of the cube max(|w|, |x|, |y|, |z|) = 1: on face f entry f is 1, and
+ * the other three, in their order, run t in [-1, 1], taken to t (|t| + 2) / 3 so that cells of one level turn by
+ * nearly the same angle. A box of a face is a convex polytope of rotations, as central projection keeps lines: the
+ * arc between two of its rotations stays inside, and the rotation farthest from the representative is a corner, at
+ * most 60 degrees of half angle away. */
 #include "fibre.h"
 #include "grid.h"
 
@@ -47,9 +48,9 @@ static struct range overlap(struct range a, struct range b)
     return both;
 }
 
-/* The part that two cells share, in the entries of the first one's face; how many of its three ranges are longer than a point, or -1 if
- * there is none. On different faces f and g they meet where entries f and g are equal (sign 1) or opposite (-1: the quaternion of
- * one is minus that of the other, so entries are mirrored). */
+/* The part that two cells share, in the entries of the first one's face; how many of its three ranges are longer than
+ * a point, or -1 if there is none. On different faces f and g they meet where entries f and g are equal (sign 1) or
+ * opposite (-1: the quaternion of one is minus that of the other, so entries are mirrored). */
 static int32_t shared(const struct cage_cell *a, const struct cage_cell *b, int32_t sign, struct range part[3])
 {
     int32_t lengths = 0;

@@ -10,8 +10,9 @@ int32_t balls_reach(int32_t dim) { return dim == 2 ? CAGE_REACH_2D : CAGE_REACH_
 
 const char *balls_text(enum balls_kind kind)
 {
-    static const char *const text[BALLS_KINDS] = {"random", "tiny",       "lattice", "weighted lattice", "cospherical", "line",
-                                                  "plane",  "coincident", "nested",  "huge",             "corners",     "clusters"};
+    static const char *const text[BALLS_KINDS] = {"random",      "tiny", "lattice", "weighted lattice",
+                                                  "cospherical", "line", "plane",   "coincident",
+                                                  "nested",      "huge", "corners", "clusters"};
     return text[kind];
 }
 
@@ -127,7 +128,7 @@ void balls_make(enum balls_kind kind, int32_t dim, uint64_t seed, int32_t count,
         for (int32_t i = 0; i < count; i++) {
             int64_t c[3], s = test_between(&state, -reach / 30, reach / 30), t = test_between(&state, -reach / 30, reach / 30);
             int64_t r = test_between(&state, 0, reach / 20);
-            uint64_t at = test_random(&state) % 5, big = test_random(&state) % 8;
+            uint64_t at = random_next(&state) % 5, big = random_next(&state) % 8;
             for (int k = 0; k < 3; k++)
                 switch (kind) {
                 case BALLS_TINY: c[k] = test_between(&state, -3, 3); r = test_between(&state, 0, 3); break;

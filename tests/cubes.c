@@ -22,8 +22,9 @@ static struct cube_box opposite(const struct cube_box *box)
     return other;
 }
 
-/* With s the entry divided by the largest, s = t (|t| + 2) / 3 says |t| + 1 = sqrt(1 + 3 |s|); in units of which [-1, 1] has CUBE_WIDTH,
- * t >= 0 is u = (t + 1) CUBE_WIDTH / 2 and u^2 = CUBE_WIDTH^2 / 4 (1 + 3 s). Terms <= 2^22 2^30 and 2^20 2^32. */
+/* With s the entry divided by the largest, s = t (|t| + 2) / 3 says |t| + 1 = sqrt(1 + 3 |s|); in units of which [-1,
+ * 1] has CUBE_WIDTH, t >= 0 is u = (t + 1) CUBE_WIDTH / 2 and u^2 = CUBE_WIDTH^2 / 4 (1 + 3 s). Terms <= 2^22 2^30
+ * and 2^20 2^32. */
 struct cube_box cube_point(const int32_t q[4])
 {
     struct cube_box point;

@@ -7,8 +7,8 @@
 /* What [-1, 1] is cut into at the finest level, 11. */
 enum { CUBE_WIDTH = 2048 };
 
-/* low[e]..high[e] on the axis of entry e of the quaternion, 0..CUBE_WIDTH. All eight faces of the cube are there, and a point and its
- * opposite are the same rotation. */
+/* low[e]..high[e] on the axis of entry e of the quaternion, 0..CUBE_WIDTH. All eight faces of the cube are there, and
+ * a point and its opposite are the same rotation. */
 struct cube_box {
     int32_t low[4], high[4];
 };

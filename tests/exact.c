@@ -201,8 +201,8 @@ bool exact_covered(int dim, const struct cage_site *const facet[3])
     return covered;
 }
 
-/* The stationary point of the sum among the l that are 0 off `of`: sum_k square_ik l_k + m = weight_i, sum of l = 1. False if there is
- * not just one or it has a negative l; else *sign of the sum there. */
+/* The stationary point of the sum among the l that are 0 off `of`: sum_k square_ik l_k + m = weight_i, sum of l = 1.
+ * False if there is not just one or it has a negative l; else *sign of the sum there. */
 static bool stationary(int64_t square[4][4], const int64_t weight[4], const int *of, int count, int *sign)
 {
     struct linear_system s;
@@ -233,8 +233,8 @@ static bool stationary(int64_t square[4][4], const int64_t weight[4], const int 
     return found;
 }
 
-/* The greatest value is taken where all l that are not 0 are free to move: at a stationary point among these. If there are many, the sum
- * is the same at all of them, and one of them has a further l = 0. */
+/* The greatest value is taken where all l that are not 0 are free to move: at a stationary point among these. If
+ * there are many, the sum is the same at all of them, and one of them has a further l = 0. */
 bool exact_nowhere_positive(int count, int64_t square[4][4], const int64_t weight[4])
 {
     for (int set = 1; set < 1 << count; set++) {
@@ -305,8 +305,8 @@ int exact_orientation(int dim, const struct cage_site *const v[4])
     return sign;
 }
 
-/* Rows (v_i - p, h_i - h_p): with f the affine function through the heights, h_i - h_p is linear in v_i - p plus f(p) - h_p, so the
- * determinant is f(p) - h_p times det(v_i - p, 1), which is (-1)^dim times the volume. */
+/* Rows (v_i - p, h_i - h_p): with f the affine function through the heights, h_i - h_p is linear in v_i - p plus f(p)
+ * - h_p, so the determinant is f(p) - h_p times det(v_i - p, 1), which is (-1)^dim times the volume. */
 void exact_lift(int dim, const struct cage_site *const v[4], const struct cage_site *p, mpz_t out)
 {
     int64_t m[4][4];

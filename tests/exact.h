@@ -28,8 +28,8 @@ bool exact_barycentric(int dim, const struct cage_site *const v[4], mpq_t x[3], 
 /* Is the whole facet in the union of the closed balls at its vertices? Decided, both ways. */
 bool exact_covered(int dim, const struct cage_site *const facet[3]);
 
-/* Is the sum of l_i l_k square[i][k] over the pairs i < k of up to 4, less the sum of l_i weight_i, positive for no l >= 0 of sum 1?
- * Decided, both ways. */
+/* Is the sum of l_i l_k square[i][k] over the pairs i < k of up to 4, less the sum of l_i weight_i, positive for no l
+ * >= 0 of sum 1? Decided, both ways. */
 bool exact_nowhere_positive(int count, int64_t square[4][4], const int64_t weight[4]);
 
 /* Of the first n rows and columns. */

@@ -16,7 +16,8 @@ struct flood {
     int32_t *apart;  /* cells that are covered have numbers of their own */
 };
 
-/* A grid over all balls and at least one pitch more on every side, so that its corner, cell 0, is outside. pitch is a multiple of 16. */
+/* A grid over all balls and at least one pitch more on every side, so that its corner, cell 0, is outside. pitch is a
+ * multiple of 16. */
 void flood_make(struct flood *flood, int32_t dim, const cage_ball *ball, int32_t count, int32_t pitch);
 void flood_free(struct flood *flood);
 

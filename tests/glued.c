@@ -1,4 +1,5 @@
-/* glued.c: which components of two slices share a point, found from all balls of both, without pruning, barriers and local mixtures. */
+/* glued.c: which components of two slices share a point, found from all balls of both, without pruning, barriers and
+ * local mixtures. */
 #include "glued.h"
 
 #include <string.h>
@@ -32,7 +33,10 @@ void glued_free(struct glued *g) { whole_free(&g->whole); }
 
 static int32_t named(const struct glued *g, int32_t label) { return label < 0 ? label : g->name[label]; }
 
-int32_t glued_locate(const struct glued *g, const int32_t p[3], int32_t *hint) { return named(g, whole_locate(&g->whole, p, hint)); }
+int32_t glued_locate(const struct glued *g, const int32_t p[3], int32_t *hint)
+{
+    return named(g, whole_locate(&g->whole, p, hint));
+}
 
 int32_t glued_pairs(const struct glued *c, const struct glued *d, const struct whole *mixture, bool touch[GLUED_MOST][GLUED_MOST])
 {
@@ -79,7 +83,8 @@ static int32_t find_group(const struct cage_touch *all, int32_t count, int32_t s
     for (bool more = true; more;) {
         more = false;
         for (int32_t i = 0; i < count; i++) {
-            bool *k = &open[0][all[i].k], *l = &open[1][all[i].l], spread_k = *l && all[i].k != CAGE_OUTSIDE, spread_l = *k && all[i].l != CAGE_OUTSIDE;
+            bool *k = &open[0][all[i].k], *l = &open[1][all[i].l], spread_k = *l && all[i].k != CAGE_OUTSIDE,
+                 spread_l = *k && all[i].l != CAGE_OUTSIDE;
             more = more || (spread_k && !*k) || (spread_l && !*l);
             *k = *k || spread_k;
             *l = *l || spread_l;
@@ -90,7 +95,8 @@ static int32_t find_group(const struct cage_touch *all, int32_t count, int32_t s
     return pairs;
 }
 
-int32_t glued_check_seeds(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, const struct cage_touch *all, int32_t count)
+int32_t glued_check_seeds(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d,
+                          const struct cage_touch *all, int32_t count)
 {
     int32_t sum = 0;
     for (int32_t seed = 0; seed < c->regions; seed++) {

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "random.h"
+
 #define PI 3.14159265358979323846
 #define FAR 1e30L
 
@@ -483,19 +485,11 @@ int32_t oracle_decide(const cage_scene *scene, const cage_pose *start, const cag
 
 /* ---- audit ---------------------------------------------------------------------------------------- */
 
-static double unit_random(uint64_t *state)
-{
-    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (double)((z ^ (z >> 31)) >> 11) / 9007199254740992.0;
-}
-
 /* A place in [0, 1], at its ends and middle as often as elsewhere, where a wrong bound would show first. */
 static double spot_random(uint64_t *state)
 {
-    double u = unit_random(state);
-    return u < 0.5 ? floor(u * 6) / 2 : unit_random(state);
+    double u = random_unit(state);
+    return u < 0.5 ? floor(u * 6) / 2 : random_unit(state);
 }
 
 static long double depth_in_voxel(const voxels *v, size_t at, const double d[3], int32_t side)
@@ -547,7 +541,7 @@ int oracle_audit(const cage_scene *scene, const cage_pose *start, int n, int sam
             wrong += audit_rims(&v, at);
         }
         for (int s = 0; s < samples; s++) {
-            size_t at = (size_t)(unit_random(&seed) * (double)all);
+            size_t at = (size_t)(random_unit(&seed) * (double)all);
             paint_slab(&v, (int)(at / slab));
             wrong += audit_voxel(&v, at, &seed);
         }

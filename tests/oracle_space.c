@@ -102,7 +102,8 @@ static long double segment_distance(const long double a[3], const long double b[
     return sqrtl(dot(e, e));
 }
 
-/* Distance from x to the arc that v sweeps about the unit axis by the angle, 0 to pi: on the circle it grows with the angle from x. */
+/* Distance from x to the arc that v sweeps about the unit axis by the angle, 0 to pi: on the circle it grows with the
+ * angle from x. */
 static long double arc_distance(const long double axis[3], long double angle, const long double v[3], const long double x[3])
 {
     long double high = dot(axis, v), a[3], b[3], c[3], end[3], side[3];

@@ -50,8 +50,9 @@ int oracle_space_separated(const space_question *q, const space_effort *effort, 
 /* 1: proved separated, as two closed chains are linked at the start, and not, or otherwise, at the goal. */
 int oracle_space_linked(const space_question *q);
 
-/* Worst depth over the whole motion of a path as cage_path_check defines it, the moves from start and to
- * goal included, by closed formulas; poses on the way are looked at too. *wrong: null, or which part of that contract is broken. */
+/* Worst depth over the whole motion of a path as cage_path_check defines it, the moves from start and to goal
+ * included, by closed formulas; poses on the way are looked at too. *wrong: null, or which part of that contract is
+ * broken. */
 long double oracle_space_check_path(const cage_scene *scene, const cage_pose *start, const cage_pose *goal,
                                     const int32_t pivot[3], const cage_pose *path, int32_t count, const char **wrong);
 #endif

@@ -1,10 +1,10 @@
 /* oracle_space_flood.c: flood boxes of R^3 x rotations.
  *
- * Rotations are exp(v) S, S that of the start and v in a cube around the ball |v| <= pi, cut evenly. As exp does not lengthen, the
- * rotations of a box are within its half diagonal of the one at its centre, and move a point at a distance a from the
- * pivot by at most a times that.
- * Rotations with |v| = pi are met twice, at v and at -v: boxes there are neighbours of their mirror images. A body symmetric about an
- * axis needs v across that axis only, and all v with |v| = pi are one. */
+ * Rotations are exp(v) S, S that of the start and v in a cube around the ball |v| <= pi, cut evenly. As exp does not
+ * lengthen, the rotations of a box are within its half diagonal of the one at its centre, and move a point at a
+ * distance a from the pivot by at most a times that.
+ * Rotations with |v| = pi are met twice, at v and at -v: boxes there are neighbours of their mirror images. A body
+ * symmetric about an axis needs v across that axis only, and all v with |v| = pi are one. */
 #include "oracle_space_flood.h"
 
 #include <math.h>
@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "oracle_space_body.h"
+#include "random.h"
 
 #define PI 3.14159265358979323846
 #define TINY 1e-9
@@ -162,19 +163,11 @@ static int shut(flood *f, const double p[3], long turn)
 
 /* ---- audit -------------------------------------------------------------------------------------------- */
 
-static double unit_random(uint64_t *state)
-{
-    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (double)((z ^ (z >> 31)) >> 11) / 9007199254740992.0;
-}
-
 /* In [-1, 1], the ends as often as all else: there a wrong bound shows first. */
 static double spot_random(uint64_t *state)
 {
-    double u = unit_random(state);
-    return u < 0.5 ? (u < 0.25 ? -1 : 1) : 2 * unit_random(state) - 1;
+    double u = random_unit(state);
+    return u < 0.5 ? (u < 0.25 ? -1 : 1) : 2 * random_unit(state) - 1;
 }
 
 /* The depth of the pair that closed the last box. */
@@ -310,7 +303,7 @@ static void enter(flood *f, const long at[3], long turn)
     if (turn_kind(f, turn) && visit(f, key_of(f, at, turn))) {
         box_centre(f, at, p);
         int is_shut = shut(f, p, turn);
-        if (f->audit && is_shut != f->g.path && unit_random(&f->audit->rng) * f->audit->every < 1) {
+        if (f->audit && is_shut != f->g.path && random_unit(&f->audit->rng) * f->audit->every < 1) {
             (f->g.path ? look_at_clear : look_at_closed)(f, p, turn);
         }
         if (!is_shut) {

@@ -19,8 +19,9 @@ typedef struct space_body {
 
 /* work: about how many pairs of balls may be looked at.
  *
- * Boxes of poses, n along the scene, are closed if one pair of inner balls overlaps at every pose of the box. 1: the flood through
- * the others stays inside (or does not reach the goal), 0: it does not, -1: too much work, or not to be used here. */
+ * Boxes of poses, n along the scene, are closed if one pair of inner balls overlaps at every pose of the box. 1: the
+ * flood through the others stays inside (or does not reach the goal), 0: it does not, -1: too much work, or not to be
+ * used here. */
 int space_separated(const space_question *q, const space_body *body, int n, long work, space_audit *audit);
 
 /* 1: centres of boxes are joined with the outside (the goal) by moves along one axis, each certified free with ORACLE_SLACK

@@ -1,12 +1,14 @@
 /* oracle_space_tree.c: grow trees of certified moves from the start, and from the goal.
  *
- * A move goes straight, then turns about the pivot. A ball's centre goes along a segment, then along an arc; the distances of obstacles
- * from both are closed formulas. */
+ * A move goes straight, then turns about the pivot. A ball's centre goes along a segment, then along an arc; the
+ * distances of obstacles from both are closed formulas. */
 #include "oracle_space_tree.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "random.h"
 
 #define MOST_BALLS 160
 
@@ -30,14 +32,6 @@ typedef struct grower {
     tree from, to;
     const space_question *question;
 } grower;
-
-static double unit_random(grower *g)
-{
-    uint64_t z = (g->rng += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (double)((z ^ (z >> 31)) >> 11) / 9007199254740992.0;
-}
 
 static double dot(const double a[3], const double b[3])
 {
@@ -234,7 +228,7 @@ static void rotation_random(grower *g, double q[4])
     do {
         n = 0;
         for (int k = 0; k < 4; k++) {
-            q[k] = 2 * unit_random(g) - 1;
+            q[k] = 2 * random_unit(&g->rng) - 1;
             n += q[k] * q[k];
         }
     } while (n > 1 || n < 0.01);
@@ -245,7 +239,7 @@ static node node_random(grower *g, double spread)
 {
     node n;
     for (int k = 0; k < 3; k++) {
-        n.p[k] = g->middle[k] + (2 * unit_random(g) - 1) * spread;
+        n.p[k] = g->middle[k] + (2 * random_unit(&g->rng) - 1) * spread;
     }
     rotation_random(g, n.q);
     n.parent = -1;
@@ -258,7 +252,7 @@ static int escapes(grower *g, const node *n, double out[3])
     for (int attempt = 0; attempt < 4; attempt++) {
         double d[3], length;
         for (int k = 0; k < 3; k++) {
-            d[k] = attempt ? 2 * unit_random(g) - 1 : n->p[k] - g->middle[k];
+            d[k] = attempt ? 2 * random_unit(&g->rng) - 1 : n->p[k] - g->middle[k];
         }
         length = sqrt(dot(d, d));
         if (length < 1e-3) {
@@ -388,8 +382,8 @@ static int search(grower *g, int tries, space_audit *audit)
         node aim = node_random(g, g->size * (n % 4 ? 0.5 : 1.2));
         int near_one = n % 4 == 2; /* a little off some node: narrow ways */
         if (near_one) {
-            const node *o = &a->at[(int)(unit_random(g) * a->count)];
-            aim = between(o, &aim, 0.1 * unit_random(g));
+            const node *o = &a->at[(int)(random_unit(&g->rng) * a->count)];
+            aim = between(o, &aim, 0.1 * random_unit(&g->rng));
         }
         int at = grow(g, a, &aim, step, 4, room, &met);
         if (at < 0) {

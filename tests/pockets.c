@@ -1,4 +1,5 @@
-/* pockets.c: scenes with a pair of rotations whose slices have many small components, next to contact, in the plane and in space. */
+/* pockets.c: scenes with a pair of rotations whose slices have many small components, next to contact, in the plane
+ * and in space. */
 #include "pockets.h"
 
 #include <string.h>
@@ -61,7 +62,10 @@ static void make_square(struct maker *m, int64_t jitter, int32_t missing)
 }
 
 static void make_exact(struct maker *m) { make_square(m, 0, 0); }
-static void make_loose(struct maker *m) { make_square(m, draw(m, 0, 1) ? draw(m, 0, 20) : draw(m, 0, 150), (int32_t)draw(m, 0, 5)); }
+static void make_loose(struct maker *m)
+{
+    make_square(m, draw(m, 0, 1) ? draw(m, 0, 20) : draw(m, 0, 150), (int32_t)draw(m, 0, 5));
+}
 
 /* Boxes with integer diagonals: balls meet in their very middle, or one unit of length before or behind it. */
 static void make_ties(struct maker *m)
@@ -101,8 +105,8 @@ static void make_nested(struct maker *m)
                  m->radius - (draw(m, 0, 2) ? 0 : m->unit * draw(m, 0, 2) / 4));
 }
 
-/* Integer points of a circle of radius 5 or a sphere of radius 3 with a hollow inside, maybe with something in it, maybe filled by a ball that
- * none but the others can touch. */
+/* Integer points of a circle of radius 5 or a sphere of radius 3 with a hollow inside, maybe with something in it,
+ * maybe filled by a ball that none but the others can touch. */
 static void make_round(struct maker *m)
 {
     int32_t size = m->dim == 2 ? 5 : 3, deep = m->dim == 2 ? 0 : size;
@@ -129,20 +133,23 @@ static int64_t root_of(int64_t square)
     return root;
 }
 
-/* A hollow above the place where big balls hardly cover the middle between them, a small ball that closes it, a big one behind it, and
- * below nothing free or the same. The object moves by as much as that place can bear: so that the border passes over the hollow's centre while
- * the hollow still meets itself, or that the upper hollow all but meets the lower one. In 64ths of a unit: covered from -64 to 64,
- * then free up to `top`; the orthocentre is at `centre`. */
+/* A hollow above the place where big balls hardly cover the middle between them, a small ball that closes it, a big
+ * one behind it, and below nothing free or the same. The object moves by as much as that place can bear: so that the
+ * border passes over the hollow's centre while the hollow still meets itself, or that the upper hollow all but meets
+ * the lower one. In 64ths of a unit: covered from -64 to 64, then free up to `top`; the orthocentre is at `centre`. */
 static void make_slit(struct maker *m)
 {
     static const int64_t at[5][2] = {{-1000, 0}, {1000, 0}, {-500, 866}, {-500, -866}, {1000, 0}};
     bool both = draw(m, 0, 1);
     int64_t u = m->unit / 2, wide = draw(m, 8, 80), r = root_of((wide * wide + 1) * u * u);
-    int64_t centre = draw(m, 90, both ? 300 : 128), move = both ? draw(m, 110, 150) : draw(m, 0, 4) ? draw(m, centre, 128) : draw(m, 64, 140);
+    int64_t centre = draw(m, 90, both ? 300 : 128), move = both            ? draw(m, 110, 150)
+                                                           : draw(m, 0, 4) ? draw(m, centre, 128)
+                                                                           : draw(m, 64, 140);
     int64_t least = both ? centre + 8 : move + 62, most = centre + root_of(centre * centre - 64 * 64);
     int64_t top = draw(m, least, most > least ? most : least), high = (top * top - 64 * 64) / (2 * (top - centre));
     high = high > 8 * 64 ? 8 * 64 : high;
-    int64_t small = (high > top ? high - top : 1) * u / 64, big = (wide + 5) * u + draw(m, -32, high > top ? high - top : 0) * u / 64;
+    int64_t small = (high > top ? high - top : 1) * u / 64,
+            big = (wide + 5) * u + draw(m, -32, high > top ? high - top : 0) * u / 64;
     for (int32_t i = 2 * (m->dim - 2); i < (m->dim == 2 ? 2 : 5); i++)
         obstacle(m, at[i][0] * wide * u / 1000, 0, at[i][1] * wide * u / 1000, r);
     for (int64_t up = both ? -1 : 1; up <= 1; up += 2) {
@@ -173,7 +180,8 @@ static void make_object(struct maker *m)
         int64_t y[3], much = draw(m, -size, size);
         for (int k = 0; k < 3; k++)
             y[k] = in_line ? along[k] * much / 1000 : part(m, size);
-        cage_ball made = {(int32_t)y[0], (int32_t)y[1], m->dim == 3 ? (int32_t)y[2] : 0, (int32_t)(m->unit * draw(m, 0, fat) / 1000)};
+        cage_ball made = {(int32_t)y[0], (int32_t)y[1], m->dim == 3 ? (int32_t)y[2] : 0,
+                          (int32_t)(m->unit * draw(m, 0, fat) / 1000)};
         out->object[a] = a > 0 && draw(m, 0, 9) == 0 ? out->object[a - 1] : made;
     }
     const cage_shape shape = {out->object, out->object, out->objects, out->objects};
@@ -186,7 +194,8 @@ static void make_object(struct maker *m)
 }
 
 /* A random cell of the level, touching that one if it is not null. */
-static void choose_cell(struct maker *m, const struct cage_fibre *fibre, int64_t level, const struct cage_cell *beside, struct cage_cell *out)
+static void choose_cell(struct maker *m, const struct cage_fibre *fibre, int64_t level, const struct cage_cell *beside,
+                        struct cage_cell *out)
 {
     do {
         const struct cage_cell root = {0, (int32_t)draw(m, 0, fibre->roots - 1), {0, 0, 0}};
@@ -201,7 +210,8 @@ static void choose_cell(struct maker *m, const struct cage_fibre *fibre, int64_t
     }
 }
 
-/* Touching cells of equal or different levels, any two coarse cells, any two rotations, a cell and its own rotation, equal ones. */
+/* Touching cells of equal or different levels, any two coarse cells, any two rotations, a cell and its own rotation,
+ * equal ones. */
 static void choose_rotations(struct maker *m)
 {
     const struct cage_fibre *fibre = m->dim == 2 ? &cage_so2 : &cage_so3;
@@ -227,13 +237,15 @@ static void choose_rotations(struct maker *m)
         m->out->at[draw(m, 0, 1)].turn = draw(m, 0, (int64_t)1 << 30);
 }
 
-/* Obstacles were made as large as collision balls should be: take off what the first object ball adds, in either slice or between them. */
+/* Obstacles were made as large as collision balls should be: take off what the first object ball adds, in either
+ * slice or between them. */
 static void fit_radii(struct maker *m)
 {
     struct pockets *out = m->out;
     int64_t change[2];
     for (int32_t i = 0; i < 2; i++) {
-        const int32_t y[3] = {out->object[0].x - out->pivot[0], out->object[0].y - out->pivot[1], out->object[0].z - out->pivot[2]};
+        const int32_t y[3] = {out->object[0].x - out->pivot[0], out->object[0].y - out->pivot[1],
+                              out->object[0].z - out->pivot[2]};
         change[i] = cage_radius_change(cage_displacement(out->at[i].turn, cage_length(y)), out->sign) + out->object[0].r;
     }
     int64_t kind = draw(m, 0, 2), off = kind == 2 ? (change[0] + change[1]) / 2 : change[kind];
@@ -263,19 +275,22 @@ void pockets_make(int32_t dim, uint64_t seed, struct pockets *out)
 
 void pockets_side(struct cage_arena *arena, const struct pockets *p, struct cage_side *side)
 {
-    const cage_scene scene = {{p->object, p->object, p->objects, p->objects}, {p->obstacle, p->obstacle, p->obstacles, p->obstacles}, p->dim};
+    const cage_scene scene = {
+        {p->object, p->object, p->objects, p->objects}, {p->obstacle, p->obstacle, p->obstacles, p->obstacles}, p->dim};
     test_require(cage_scene_check(&scene) == CAGE_OK);
     test_require(cage_side_make(arena, &scene, p->pivot, p->sign, side) == CAGE_OK);
 }
 
 void pockets_print(FILE *file, const struct pockets *p)
 {
-    fprintf(file, "dim %d, sign %d, pivot %d %d %d\n", (int)p->dim, (int)p->sign, (int)p->pivot[0], (int)p->pivot[1], (int)p->pivot[2]);
+    fprintf(file, "dim %d, sign %d, pivot %d %d %d\n", (int)p->dim, (int)p->sign, (int)p->pivot[0], (int)p->pivot[1],
+            (int)p->pivot[2]);
     for (int32_t i = 0; i < 2; i++)
-        fprintf(file, "rotation %d %d %d %d turn %lld\n", (int)p->at[i].q[0], (int)p->at[i].q[1], (int)p->at[i].q[2], (int)p->at[i].q[3],
-                (long long)p->at[i].turn);
+        fprintf(file, "rotation %d %d %d %d turn %lld\n", (int)p->at[i].q[0], (int)p->at[i].q[1], (int)p->at[i].q[2],
+                (int)p->at[i].q[3], (long long)p->at[i].turn);
     for (int32_t i = 0; i < p->objects; i++)
         fprintf(file, "object %d %d %d %d\n", (int)p->object[i].x, (int)p->object[i].y, (int)p->object[i].z, (int)p->object[i].r);
     for (int32_t i = 0; i < p->obstacles; i++)
-        fprintf(file, "obstacle %d %d %d %d\n", (int)p->obstacle[i].x, (int)p->obstacle[i].y, (int)p->obstacle[i].z, (int)p->obstacle[i].r);
+        fprintf(file, "obstacle %d %d %d %d\n", (int)p->obstacle[i].x, (int)p->obstacle[i].y, (int)p->obstacle[i].z,
+                (int)p->obstacle[i].r);
 }

@@ -1,4 +1,5 @@
-/* pockets.h: scenes with a pair of rotations whose slices have many small components, next to contact, in the plane and in space. */
+/* pockets.h: scenes with a pair of rotations whose slices have many small components, next to contact, in the plane
+ * and in space. */
 #ifndef POCKETS_H
 #define POCKETS_H
 

@@ -20,21 +20,13 @@ typedef struct maker {
     int32_t lattice;
 } maker;
 
-uint64_t scene_next(uint64_t *state)
-{
-    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
 int32_t scene_between(uint64_t *state, int32_t low, int32_t high)
 {
     if (high <= low) {
         return low;
     }
     uint64_t n = (uint64_t)((int64_t)high - low) + 1;
-    return (int32_t)(low + (int64_t)((scene_next(state) >> 11) % n));
+    return (int32_t)(low + (int64_t)((random_next(state) >> 11) % n));
 }
 
 static int32_t draw(maker *m, int32_t low, int32_t high)

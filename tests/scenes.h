@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "cage.h"
+#include "random.h"
 
 #define SCENE_OBJECT 8
 #define SCENE_OBSTACLES 64
@@ -39,6 +40,5 @@ void scene_swap(const scene *in, scene *out);
 /* Start pose and balls as text, to file in a report. */
 void scene_print(FILE *file, const scene *s);
 
-uint64_t scene_next(uint64_t *state);
 int32_t scene_between(uint64_t *state, int32_t low, int32_t high); /* both ends included */
 #endif

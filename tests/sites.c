@@ -46,18 +46,18 @@ static int64_t coordinate(uint64_t *state, int dim, enum sites_kind kind, int64_
 /* A vector of length size * row[3] with the entries of size * row in some order, of some sign. */
 static void turned(uint64_t *state, const int row[4], bool flat, int64_t size, int64_t out[3])
 {
-    int turn = (int)(test_random(state) % 3);
+    int turn = (int)(random_next(state) % 3);
     for (int k = 0; k < 3; k++) {
         int from = !flat ? (k + turn) % 3 : k == 2 ? 2 : k ^ (turn & 1);
-        out[k] = (test_random(state) & 1 ? size : -size) * row[from];
+        out[k] = (random_next(state) & 1 ? size : -size) * row[from];
     }
 }
 
 void sites_make(uint64_t *state, int dim, enum sites_kind kind, int count, struct cage_site *out)
 {
     int64_t third = sites_largest(dim) / 3, o[3], u[3], r;
-    int64_t scale = 1 + test_between(state, 0, third / 100) / (test_random(state) % 3 ? 3000 : 1);
-    int row = (int)(test_random(state) % 6);
+    int64_t scale = 1 + test_between(state, 0, third / 100) / (random_next(state) % 3 ? 3000 : 1);
+    int row = (int)(random_next(state) % 6);
     for (int k = 0; k < 3; k++) {
         o[k] = test_spread(state, third / 4);
         u[k] = test_spread(state, 1000);
@@ -67,25 +67,25 @@ void sites_make(uint64_t *state, int dim, enum sites_kind kind, int count, struc
         for (int k = 0; k < 3; k++)
             c[k] = coordinate(state, dim, kind, &r);
         if (kind == SITES_THIN || kind == SITES_COINCIDENT) {
-            bool away = test_random(state) % 3 == 0;
+            bool away = random_next(state) % 3 == 0;
             for (int k = 0; k < 3; k++)
                 c[k] = o[k] + (kind == SITES_THIN ? t * u[k] + test_between(state, -1, 1) : away ? u[k] : 0);
             r = test_spread(state, kind == SITES_THIN ? third : 4);
         } else if (kind == SITES_THROUGH_POINT || kind == SITES_COSPHERICAL || (kind == SITES_IN_PLANE && dim == 3)) {
             bool flat = dim == 2 || kind == SITES_IN_PLANE, same = kind == SITES_COSPHERICAL;
-            const int *numbers = sites_pythagoras[!flat][same ? row : (int)(test_random(state) % 6)];
+            const int *numbers = sites_pythagoras[!flat][same ? row : (int)(random_next(state) % 6)];
             turned(state, numbers, flat, same ? scale : size, c);
-            r = same ? test_random(state) % 16 == 0 : size * numbers[3] + (test_random(state) % 8 == 0);
+            r = same ? random_next(state) % 16 == 0 : size * numbers[3] + (random_next(state) % 8 == 0);
         } else if (kind == SITES_IN_PLANE) {
             for (int k = 0; k < 3; k++)
                 c[k] = (i & 1 ? size : -size) * sites_pythagoras[0][row][k];
-            r = size * sites_pythagoras[0][row][3] + (test_random(state) % 8 == 0);
+            r = size * sites_pythagoras[0][row][3] + (random_next(state) % 8 == 0);
         }
         for (int k = 0; k < 3 && (kind == SITES_THROUGH_POINT || kind == SITES_COSPHERICAL || kind == SITES_IN_PLANE); k++)
             c[k] += o[k];
         out[i] = sites_ball(dim, c[0], c[1], c[2], r < 0 ? -r : r);
-        if (kind == SITES_SENTINELS && test_random(state) & 1)
-            out[i] = sites_sentinel(dim, (int)(test_random(state) % (unsigned)(dim + 1)));
+        if (kind == SITES_SENTINELS && random_next(state) & 1)
+            out[i] = sites_sentinel(dim, (int)(random_next(state) % (unsigned)(dim + 1)));
     }
 }
 

@@ -30,7 +30,8 @@ static void complain(tally *t, const space_scene *s, const char *what, const cag
     space_print(stdout, s);
 }
 
-static void count(tally *t, const space_scene *s, const cage_result *r, int32_t truth, const char *how, double took, double judging)
+static void count(tally *t, const space_scene *s, const cage_result *r, int32_t truth, const char *how, double took,
+                  double judging)
 {
     t->pairs[truth][r->verdict]++;
     t->by_oracle += referee_decided(truth);

@@ -1,28 +1,20 @@
-/* support.c: what every test of the core shares: a deterministic random source and the way a suite is run. */
+/* support.c: what every test of the core shares: numbers drawn at random and the way a suite is run. */
 #include "support.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-uint64_t test_random(uint64_t *state)
-{
-    uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return z ^ (z >> 31);
-}
-
 int64_t test_between(uint64_t *state, int64_t low, int64_t high)
 {
     uint64_t span = (uint64_t)high - (uint64_t)low + 1;
-    return span == 0 ? (int64_t)test_random(state) : (int64_t)((uint64_t)low + test_random(state) % span);
+    return span == 0 ? (int64_t)random_next(state) : (int64_t)((uint64_t)low + random_next(state) % span);
 }
 
 int64_t test_spread(uint64_t *state, int64_t limit)
 {
-    uint64_t size = (test_random(state) >> 1) >> (test_random(state) % 64);
+    uint64_t size = (random_next(state) >> 1) >> (random_next(state) % 64);
     int64_t value = (int64_t)(size % ((uint64_t)limit + 1));
-    return test_random(state) & 1 ? -value : value;
+    return random_next(state) & 1 ? -value : value;
 }
 
 void test_shuffle(uint64_t *state, int32_t *order, int32_t count)
@@ -39,6 +31,18 @@ int32_t test_rounds(int32_t full)
     if (!getenv("CAGE_TEST_QUICK"))
         return full;
     return full >= 10 ? full / 10 : 1;
+}
+
+int32_t test_scenes(int32_t full)
+{
+    const char *text = getenv("CAGE_TEST_SCENES");
+    long n = text ? strtol(text, NULL, 10) : full;
+    return n < 1 ? 1 : n > 1000000 ? 1000000 : (int32_t)n;
+}
+
+double test_seconds_since(clock_t start)
+{
+    return (double)(clock() - start) / CLOCKS_PER_SEC;
 }
 
 void *test_alloc(size_t bytes)

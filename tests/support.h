@@ -1,10 +1,13 @@
-/* support.h: what every test of the core shares: a deterministic random source and the way a suite is run. */
+/* support.h: what every test of the core shares: numbers drawn at random and the way a suite is run. */
 #ifndef SUPPORT_H
 #define SUPPORT_H
 
 #include <stdint.h>
+#include <time.h>
 
 #include <check.h>
+
+#include "random.h"
 
 /* ck_assert for inner loops: Check writes every assertion to a file, this one only those that fail. */
 #define test_require(condition)                       \
@@ -12,9 +15,6 @@
         if (!(condition))                             \
             ck_abort_msg("not so: %s", #condition);   \
     } while (0)
-
-/* splitmix64: the next of 2^64 numbers, the same on every machine. */
-uint64_t test_random(uint64_t *state);
 
 /* Uniform in low..high, both included. */
 int64_t test_between(uint64_t *state, int64_t low, int64_t high);
@@ -27,6 +27,12 @@ void test_shuffle(uint64_t *state, int32_t *order, int32_t count);
 
 /* full, or a tenth of it (never 0) when CAGE_TEST_QUICK is set in the environment, as under Valgrind. */
 int32_t test_rounds(int32_t full);
+
+/* How many scenes to try: the number in CAGE_TEST_SCENES, or full where that is not set; never 0. */
+int32_t test_scenes(int32_t full);
+
+/* Of processor time. */
+double test_seconds_since(clock_t start);
 
 /* malloc or the end of the test program. */
 void *test_alloc(size_t bytes);

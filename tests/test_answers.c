@@ -1,8 +1,8 @@
 /* test_answers.c: whole answers in the plane against an independent oracle, and against themselves. */
-#include <check.h>
+#include "support.h"
+
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "oracle.h"
 #include "referee.h"
@@ -16,21 +16,13 @@ static unsigned char *spare;
 
 static int32_t scenes_wanted(void)
 {
-    const char *text = getenv("CAGE_TEST_SCENES");
-    long n = text ? strtol(text, NULL, 10) : 500;
-    return n < 1 ? 1 : n > 1000000 ? 1000000 : (int32_t)n;
-}
-
-static double seconds_since(clock_t start)
-{
-    return (double)(clock() - start) / CLOCKS_PER_SEC;
+    return test_scenes(500);
 }
 
 static void blocks_make(void)
 {
-    block = malloc(PLENTY);
-    spare = malloc(PLENTY);
-    ck_assert(block && spare);
+    block = test_alloc(PLENTY);
+    spare = test_alloc(PLENTY);
 }
 
 static void blocks_drop(void)
@@ -109,7 +101,7 @@ START_TEST(answers_are_the_oracles)
         ask_random_lightly(&a, (uint64_t)seed);
         clock_t start = clock();
         prove(&a, 0, block, &r);
-        double took = seconds_since(start);
+        double took = test_seconds_since(start);
         int32_t truth = judge(&a);
         expect(&a, referee_contradiction(r.verdict, truth), "oracle");
         by_oracle += referee_decided(truth);
@@ -118,7 +110,7 @@ START_TEST(answers_are_the_oracles)
         counts[r.verdict]++;
         library += took;
         slowest = took > slowest ? took : slowest;
-        all += seconds_since(start);
+        all += test_seconds_since(start);
     }
     printf("answers: %d scenes; library: %d caged, %d disconnected, %d free, %d connected, %d in collision, "
            "%d undefined\n", (int)n, (int)counts[CAGE_CAGED], (int)counts[CAGE_DISCONNECTED], (int)counts[CAGE_FREE],
@@ -482,7 +474,7 @@ END_TEST
 static void add(Suite *suite, const char *name, const TTest *one, const TTest *two, const TTest *three)
 {
     const TTest *tests[3] = {one, two, three};
-    TCase *group = tcase_create(name);
+    TCase *group = test_case(suite, name);
     tcase_set_timeout(group, 0);
     tcase_add_checked_fixture(group, blocks_make, blocks_drop);
     for (int k = 0; k < 3; k++) {
@@ -490,7 +482,6 @@ static void add(Suite *suite, const char *name, const TTest *one, const TTest *t
             tcase_add_test(group, tests[k]);
         }
     }
-    suite_add_tcase(suite, group);
 }
 
 int main(void)
@@ -502,9 +493,5 @@ int main(void)
     add(suite, "portions", portions_do_not_matter, NULL, NULL);
     add(suite, "paths", path_check_is_right, NULL, NULL);
     add(suite, "memory", any_block_gives_the_error_or_the_answer, needed_bytes_lead_to_the_answer, NULL);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return test_main(suite);
 }

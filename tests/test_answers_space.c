@@ -1,8 +1,8 @@
 /* test_answers_space.c: whole answers in space against an independent oracle, and against themselves. */
-#include <check.h>
+#include "support.h"
+
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "oracle_space.h"
 #include "referee.h"
@@ -16,9 +16,7 @@ static unsigned char *spare;
 
 static int32_t scenes_wanted(void)
 {
-    const char *text = getenv("CAGE_TEST_SCENES");
-    long n = text ? strtol(text, NULL, 10) : 120;
-    return n < 1 ? 1 : n > 1000000 ? 1000000 : (int32_t)n;
+    return test_scenes(120);
 }
 
 /* Sanitized runs take ten times as long. */
@@ -27,16 +25,10 @@ static int quick(void)
     return getenv("CAGE_TEST_QUICK") != NULL;
 }
 
-static double seconds_since(clock_t start)
-{
-    return (double)(clock() - start) / CLOCKS_PER_SEC;
-}
-
 static void blocks_make(void)
 {
-    block = malloc(PLENTY);
-    spare = malloc(PLENTY);
-    ck_assert(block && spare);
+    block = test_alloc(PLENTY);
+    spare = test_alloc(PLENTY);
 }
 
 static void blocks_drop(void)
@@ -119,7 +111,7 @@ START_TEST(answers_are_the_oracles)
         ask_random(&a, (uint64_t)seed, 150);
         clock_t start = clock();
         prove(&a, 0, block, &r);
-        double took = seconds_since(start);
+        double took = test_seconds_since(start);
         int32_t truth = judge(&a, r.verdict, &how);
         expect(&a, referee_contradiction(r.verdict, truth), how);
         by_oracle += referee_decided(truth);
@@ -128,7 +120,7 @@ START_TEST(answers_are_the_oracles)
         counts[r.verdict]++;
         library += took;
         slowest = took > slowest ? took : slowest;
-        all += seconds_since(start);
+        all += test_seconds_since(start);
     }
     printf("answers: %d scenes in space; library: %d caged, %d disconnected, %d free, %d connected, %d in collision, "
            "%d undefined\n", (int)n, (int)counts[CAGE_CAGED], (int)counts[CAGE_DISCONNECTED], (int)counts[CAGE_FREE],
@@ -268,8 +260,8 @@ START_TEST(swapped_ends_answer_alike)
 }
 END_TEST
 
-/* Obstacles that grow only close ways: what is free when they are thick is free when they are thinner. joined: a path is known that
- * fits obstacles thicker by so much; caged: the least at which the library says that there is none. */
+/* Obstacles that grow only close ways: what is free when they are thick is free when they are thinner. joined: a path
+ * is known that fits obstacles thicker by so much; caged: the least at which the library says that there is none. */
 typedef struct border {
     int32_t joined, caged;
 } border;
@@ -384,15 +376,16 @@ START_TEST(thicker_obstacles_free_nothing)
             continue;
         }
         ask_thicker(&a, known.caged, &b);
-        expect(&b, referee_contradiction(b.q.goal ? CAGE_DISCONNECTED : CAGE_CAGED, judge(&b, CAGE_CAGED, &how)), "at the border");
+        expect(&b, referee_contradiction(b.q.goal ? CAGE_DISCONNECTED : CAGE_CAGED, judge(&b, CAGE_CAGED, &how)),
+               "at the border");
         caged++;
         if (known.joined > INT32_MIN) {
             both++;
             apart += (long double)(known.caged - known.joined) / room;
         }
     }
-    printf("borders: %d scenes, %d joined when thin, %d separated when thick, %d both, there %.1Lf %% of the room apart\n", (int)n,
-           (int)joined, (int)caged, (int)both, both ? 100 * apart / both : 0.0L);
+    printf("borders: %d scenes, %d joined when thin, %d separated when thick, %d both, there %.1Lf %% of the room apart\n",
+           (int)n, (int)joined, (int)caged, (int)both, both ? 100 * apart / both : 0.0L);
     ck_assert(n < 40 || both > n / 10);
 }
 END_TEST
@@ -526,7 +519,8 @@ START_TEST(smaller_blocks_answer_alike)
         undecided += right.verdict == CAGE_UNDEFINED;
     }
     printf("memory: %d scenes (%d separated, %d joined, %d undecided) in %d smaller blocks, answered in %d, after %d tries at "
-           "most\n", (int)n, (int)separated, (int)joined, (int)undecided, (int)count.blocks, (int)count.answered, (int)count.most_tries);
+           "most\n",
+           (int)n, (int)separated, (int)joined, (int)undecided, (int)count.blocks, (int)count.answered, (int)count.most_tries);
     ck_assert(n < 20 || (separated > 0 && joined > 0 && undecided > 0));
 }
 END_TEST
@@ -608,14 +602,13 @@ END_TEST
 
 static void add(Suite *suite, const char *name, const TTest *one, const TTest *two)
 {
-    TCase *group = tcase_create(name);
+    TCase *group = test_case(suite, name);
     tcase_set_timeout(group, 0);
     tcase_add_checked_fixture(group, blocks_make, blocks_drop);
     tcase_add_test(group, one);
     if (two) {
         tcase_add_test(group, two);
     }
-    suite_add_tcase(suite, group);
 }
 
 int main(void)
@@ -628,9 +621,5 @@ int main(void)
     add(suite, "portions", portions_do_not_matter, NULL);
     add(suite, "memory", smaller_blocks_answer_alike, NULL);
     add(suite, "paths", path_check_is_right, NULL);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return test_main(suite);
 }

@@ -1,4 +1,5 @@
-/* test_barrier.c: no pair of components that share a point is called apart, and none that are apart touching; tetrahedra in balls are proved solid. */
+/* test_barrier.c: no pair of components that share a point is called apart, and none that are apart touching;
+ * tetrahedra in balls are proved solid. */
 #include "support.h"
 
 #include <stdio.h>
@@ -18,8 +19,8 @@ struct tally {
 };
 
 /* Ask in the order in which gluing does, then in any. */
-static void check_view(struct cage_arena *arena, uint64_t seed, const struct glued *c, const struct glued *d, bool wanted[GLUED_MOST][GLUED_MOST],
-                       bool transposed, struct tally *tally)
+static void check_view(struct cage_arena *arena, uint64_t seed, const struct glued *c, const struct glued *d,
+                       bool wanted[GLUED_MOST][GLUED_MOST], bool transposed, struct tally *tally)
 {
     struct cage_view view;
     int32_t k_count = c->slice.regions, l_count = d->slice.regions, hint[2] = {0, 0};
@@ -28,7 +29,8 @@ static void check_view(struct cage_arena *arena, uint64_t seed, const struct glu
     test_require(cage_view_make(arena, &c->slice, &d->slice, &view) == CAGE_OK);
     int8_t *verdicts = test_alloc((size_t)k_count * (size_t)l_count);
     for (int32_t n = 0; n < k_count * l_count + 50; n++) {
-        int32_t at = n < k_count * l_count ? n : (int32_t)test_between(&state, 0, k_count * l_count - 1), k = at / l_count, l = at % l_count, x[3];
+        int32_t at = n < k_count * l_count ? n : (int32_t)test_between(&state, 0, k_count * l_count - 1), k = at / l_count,
+                l = at % l_count, x[3];
         int32_t verdict = cage_view_decide(&view, k, l, x);
         bool touch = transposed ? wanted[l][k] : wanted[k][l];
         if ((verdict == CAGE_APART && touch) || (verdict == CAGE_TOUCHING && !touch))
@@ -81,8 +83,8 @@ START_TEST(says_nothing_wrong)
     struct tally tally = {0, 0, 0, 0, 0};
     for (int32_t seed = 0; seed < rounds; seed++)
         check_scene(_i, 1000000 + (uint64_t)seed, &tally);
-    printf("glue: dim %d: %ld pairs, %ld of %ld apart and %ld of %ld touching proved so\n", _i, tally.pairs, tally.found_apart, tally.apart,
-           tally.found_touching, tally.touching);
+    printf("glue: dim %d: %ld pairs, %ld of %ld apart and %ld of %ld touching proved so\n", _i, tally.pairs, tally.found_apart,
+           tally.apart, tally.found_touching, tally.touching);
     ck_assert_int_gt(tally.found_apart, tally.apart / 2);
     ck_assert_int_gt(tally.found_touching, tally.touching / 2);
 }
@@ -141,7 +143,8 @@ static bool in_some_ball(uint64_t *state, const struct cage_site site[4], mpq_t 
     return false;
 }
 
-/* What is said to be covered for longer edges and smaller weights is covered; and of what is clearly covered, nearly all is said to be. */
+/* What is said to be covered for longer edges and smaller weights is covered; and of what is clearly covered, nearly
+ * all is said to be. */
 START_TEST(solid_is_solid)
 {
     uint64_t state = 1;

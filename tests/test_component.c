@@ -93,8 +93,8 @@ static int32_t component_at(const struct labelled *l, const int32_t p[3], int32_
     return l->c.label[*hint];
 }
 
-static const char *compare(int32_t dim, const cage_ball *ball, int32_t count, int32_t pitch, const struct labelled *l, long *decided,
-                           long *of)
+static const char *compare(int32_t dim, const cage_ball *ball, int32_t count, int32_t pitch, const struct labelled *l,
+                           long *decided, long *of)
 {
     struct flood flood;
     flood_make(&flood, dim, ball, count, pitch);

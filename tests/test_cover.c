@@ -1,4 +1,5 @@
-/* test_cover.c: edges, triangles and tetrahedra that their own balls are proved to cover: decided exactly, and looked at point by point. */
+/* test_cover.c: edges, triangles and tetrahedra that their own balls are proved to cover: decided exactly, and looked
+ * at point by point. */
 #include "support.h"
 
 #include <math.h>
@@ -34,8 +35,9 @@ static void set_edge(struct cover *c, int i, int k, int64_t square)
 
 static int64_t floor_of(int64_t a, int64_t b) { return a / b - (a % b < 0); }
 
-/* The matrix 2 weight_i, weight_i + weight_k - square_ik, its entries rounded down to a power of two so that they have 40 bits for a triangle
- * and 27 for a tetrahedron: what a proof may be about, as more than 2^-39 or 2^-26 of the largest entry is not lost. *unit: that power. */
+/* The matrix 2 weight_i, weight_i + weight_k - square_ik, its entries rounded down to a power of two so that they
+ * have 40 bits for a triangle and 27 for a tetrahedron: what a proof may be about, as more than 2^-39 or 2^-26 of the
+ * largest entry is not lost. *unit: that power. */
 static void matrix_of(int count, const struct cover *c, int64_t a[4][4], int64_t *unit)
 {
     int64_t most = 0;
@@ -67,8 +69,9 @@ static bool semidefinite(int64_t a[4][4], int *last)
     return all;
 }
 
-/* What the answer has to be: an edge or a triangle is covered if the sum of exact.h, for the rounded matrix, is nowhere positive; a tetrahedron,
- * if moreover the matrix is positive semidefinite. *tie: that hangs on a determinant that is 0. */
+/* What the answer has to be: an edge or a triangle is covered if the sum of exact.h, for the rounded matrix, is
+ * nowhere positive; a tetrahedron, if moreover the matrix is positive semidefinite. *tie: that hangs on a determinant
+ * that is 0. */
 static bool expected(int count, struct cover *c, bool *tie)
 {
     int64_t a[4][4], unit;
@@ -91,17 +94,19 @@ static bool expected(int count, struct cover *c, bool *tie)
     return exact_nowhere_positive(count, rounded.square, rounded.weight);
 }
 
-/* Ties: balls through one point p of the simplex. With vertices z_i relative to p, the sum of exact.h is -|sum_i l_i z_i|^2, as
- * sum_i l_i |z_i|^2 - |sum_i l_i z_i|^2 = sum_{i<k} l_i l_k square_ik: it is 0 where the l_i z_i add up to 0. A longer edge or a smaller
- * weight makes it positive there or beside it. All numbers are small ones times a power of 4, so that rounding leaves them alone. */
+/* Ties: balls through one point p of the simplex. With vertices z_i relative to p, the sum of exact.h is -|sum_i l_i
+ * z_i|^2, as sum_i l_i |z_i|^2 - |sum_i l_i z_i|^2 = sum_{i<k} l_i l_k square_ik: it is 0 where the l_i z_i add up to
+ * 0. A longer edge or a smaller weight makes it positive there or beside it. All numbers are small ones times a power
+ * of 4, so that rounding leaves them alone. */
 static void make_tie(uint64_t *state, int count, struct cover *c)
 {
-    int kind = (int)(test_random(state) % 4), at = (int)(test_random(state) % 3), last = count - 1;
+    int kind = (int)(random_next(state) % 4), at = (int)(random_next(state) % 3), last = count - 1;
     int64_t scale = INT64_C(1) << 2 * test_between(state, 0, count == 3 ? 10 : 17);
     memset(c, 0, sizeof *c);
     if (count == 2) { /* p between the ends, a and b times the root of a number from them */
         int64_t root = test_between(state, 0, 1 << test_between(state, 0, 14)), number = root * root - (kind == 1 && root > 0);
-        int64_t most = (1 << 30) / (root + 1), a = llabs(test_spread(state, most)), b = kind == 0 ? a : llabs(test_spread(state, most));
+        int64_t most = (1 << 30) / (root + 1), a = llabs(test_spread(state, most)),
+                b = kind == 0 ? a : llabs(test_spread(state, most));
         c->weight[0] = number * a * a;
         c->weight[1] = number * b * b;
         set_edge(c, 0, 1, number * (a + b) * (a + b));
@@ -143,11 +148,11 @@ static void make_tie(uint64_t *state, int count, struct cover *c)
 /* Edges and weights within their bounds, of all sizes; in many of them no pair of balls decides. */
 static void make_any(uint64_t *state, int count, struct cover *c)
 {
-    int kind = (int)(test_random(state) % 6), near = test_random(state) & 1;
+    int kind = (int)(random_next(state) % 6), near = random_next(state) & 1;
     int64_t factor = INT64_C(1) << test_between(state, 0, 57), off = factor / (near ? 1 : 1 + (factor >> 20));
     make_tie(state, count, c);
     for (int i = 0; i < count; i++) {
-        int64_t w = llabs(test_spread(state, largest)), rare = test_random(state) % 8 == 0;
+        int64_t w = llabs(test_spread(state, largest)), rare = random_next(state) % 8 == 0;
         if (kind == 1) /* next to a tie */
             c->weight[i] += near ? test_between(state, -1, 1) : test_spread(state, 1 + c->weight[i] / 1000);
         else if (kind == 2)
@@ -168,7 +173,8 @@ static void make_any(uint64_t *state, int count, struct cover *c)
                      : kind == 2 ? factor / 8 * test_between(state, 0, 31)
                      : kind == 3 ? llabs(test_spread(state, longest))
                      : kind == 4 ? test_between(state, 0, 2) * (longest / 2) - test_between(state, 0, 1)
-                                 : (int64_t)(reach * reach * (double)test_between(state, 24, 63) / 64)); /* not much shorter than both reach */
+                                 : (int64_t)(reach * reach * (double)test_between(state, 24, 63) /
+                                             64)); /* not much shorter than both reach */
         }
     }
 }
@@ -190,9 +196,11 @@ static void change(uint64_t *state, int count, int sign, const struct cover *c, 
 {
     memset(out, 0, sizeof *out);
     for (int i = 0; i < count; i++) {
-        out->weight[i] = c->weight[i] - sign * llabs(test_spread(state, sign < 0 ? largest - c->weight[i] : largest + c->weight[i]));
+        out->weight[i] =
+            c->weight[i] - sign * llabs(test_spread(state, sign < 0 ? largest - c->weight[i] : largest + c->weight[i]));
         for (int k = 0; k < i; k++)
-            set_edge(out, i, k, c->square[i][k] + sign * llabs(test_spread(state, sign < 0 ? c->square[i][k] : longest - c->square[i][k])));
+            set_edge(out, i, k,
+                     c->square[i][k] + sign * llabs(test_spread(state, sign < 0 ? c->square[i][k] : longest - c->square[i][k])));
     }
 }
 
@@ -221,7 +229,8 @@ START_TEST(decides_exactly)
         bool right = expected(count, &c, &tie), truth = exact_nowhere_positive(count, c.square, c.weight);
         for (int k = 0; k < 4; k++)
             wrong[k] += proved(backends[k], count, &c) != right;
-        test_require(count == 2 ? right == truth : right <= truth); /* the test itself: what is rounded down is on the safe side */
+        test_require(count == 2 ? right == truth
+                                : right <= truth); /* the test itself: what is rounded down is on the safe side */
         seen[right]++;
         lost += truth && !right;
         hard += !right && pairs_covered(count, &c);
@@ -337,7 +346,8 @@ static int64_t make_corners(uint64_t *state, int count, int32_t round, struct ca
 
 static void resize(struct cage_site *site, int64_t r) { *site = sites_ball(3, site->x, site->y, site->z, r); }
 
-/* Simplices with balls that are no larger than need be for a yes: each point of a grid is in a ball, and not if they are smaller. */
+/* Simplices with balls that are no larger than need be for a yes: each point of a grid is in a ball, and not if they
+ * are smaller. */
 START_TEST(covered_is_covered)
 {
     int count = _i;

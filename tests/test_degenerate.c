@@ -1,4 +1,5 @@
-/* test_degenerate.c: proofs of scenes with nothing in them, one ball, contact, coincidence, or an object larger than the world. */
+/* test_degenerate.c: proofs of scenes with nothing in them, one ball, contact, coincidence, or an object larger than
+ * the world. */
 #include "support.h"
 
 #include <stdlib.h>
@@ -75,7 +76,9 @@ START_TEST(object_larger_than_the_world)
     static const cage_ball world = {100000, 0, 0, 50};
     int32_t count = 0; /* a square of balls around (100000, 0), in the object's frame */
     for (int32_t i = -8; i < 8; i++) {
-        const cage_ball side[4] = {{100000 + i * 1000, -8000, 0, 800}, {108000, i * 1000, 0, 800}, {100000 - i * 1000, 8000, 0, 800},
+        const cage_ball side[4] = {{100000 + i * 1000, -8000, 0, 800},
+                                   {108000, i * 1000, 0, 800},
+                                   {100000 - i * 1000, 8000, 0, 800},
                                    {92000, -i * 1000, 0, 800}};
         memcpy(&ring[count], side, sizeof side);
         count += 4;
@@ -140,7 +143,8 @@ START_TEST(coincident_balls_and_points)
             y[i] = at;
         }
         for (int32_t i = 0; i < 24; i++) {
-            const cage_ball at = {i % 4 < 2 ? (i % 4 * 2 - 1) * 5000 : 0, i % 4 < 2 ? 0 : (i % 4 * 2 - 5) * 5000, 0, i % 3 == 0 ? 2500 : 0};
+            const cage_ball at = {i % 4 < 2 ? (i % 4 * 2 - 1) * 5000 : 0, i % 4 < 2 ? 0 : (i % 4 * 2 - 5) * 5000, 0,
+                                  i % 3 == 0 ? 2500 : 0};
             x[i] = at;
         }
         const cage_scene s = scene_of(y, 6, x, 24);

@@ -230,10 +230,11 @@ static bool contains(const struct cage_triangulation *t, int32_t s, const struct
 static struct cage_site random_point(uint64_t *state, const struct cage_triangulation *t)
 {
     int64_t m = t->dim == 2 ? 1 << 29 : 1 << 24;
-    const struct cage_site *a = &t->site[test_between(state, 0, t->sites - 1)], *b = &t->site[test_between(state, 0, t->sites - 1)];
+    const struct cage_site *a = &t->site[test_between(state, 0, t->sites - 1)],
+                           *b = &t->site[test_between(state, 0, t->sites - 1)];
     for (;;) {
         struct cage_site p = {0, a->x, a->y, a->z, 0};
-        switch (test_random(state) % 4) {
+        switch (random_next(state) % 4) {
         case 0:
             p.x = (int32_t)test_between(state, -m, m);
             p.y = (int32_t)test_between(state, -m, m);

@@ -11,8 +11,8 @@
 enum { MOST = 7, BEFORE = 64, AFTER = 1024, CANARY = 0xa7 };
 
 /* Sites to add: of another set of balls, or some of the same once more. */
-static int32_t make_more(enum balls_kind kind, int32_t dim, uint64_t seed, const struct cage_triangulation *t, struct cage_site *site,
-                         const struct cage_site **more)
+static int32_t make_more(enum balls_kind kind, int32_t dim, uint64_t seed, const struct cage_triangulation *t,
+                         struct cage_site *site, const struct cage_site **more)
 {
     cage_ball ball[MOST];
     uint64_t state = seed;
@@ -20,7 +20,8 @@ static int32_t make_more(enum balls_kind kind, int32_t dim, uint64_t seed, const
     balls_make(kind, dim, seed, count, ball);
     for (int32_t i = 0; i < count; i++) {
         const cage_ball *b = &ball[i];
-        const struct cage_site made = {(int64_t)b->x * b->x + (int64_t)b->y * b->y + (int64_t)b->z * b->z - (int64_t)b->r * b->r, b->x, b->y, b->z, b->r};
+        const struct cage_site made = {(int64_t)b->x * b->x + (int64_t)b->y * b->y + (int64_t)b->z * b->z - (int64_t)b->r * b->r,
+                                       b->x, b->y, b->z, b->r};
         site[i] = made;
         more[i] = &site[i];
         if (again == 0 && t->sites > dim + 1)
@@ -49,7 +50,8 @@ static bool same_vertices(int32_t dim, const struct cage_simplex *a, const struc
 }
 
 /* Sites are the old ones and the new ones; simplices without a new one are where they were; twins name each other. */
-static void check_extended(const struct cage_triangulation *from, const struct cage_site *const *more, int32_t count, const struct cage_triangulation *t)
+static void check_extended(const struct cage_triangulation *from, const struct cage_site *const *more, int32_t count,
+                           const struct cage_triangulation *t)
 {
     int32_t dim = from->dim, hull = 0, kept = 0, old = 0;
     test_require(t->dim == dim && t->sites == from->sites + count && t->simplices >= from->simplices && t->ball == NULL);
@@ -103,7 +105,7 @@ START_TEST(equals_its_definition)
     enum balls_kind kind = (enum balls_kind)(_i / 2);
     int32_t dim = 2 + _i % 2, grown = 0, rounds = test_rounds(40);
     for (int32_t round = 0; round < rounds; round++) {
-        uint64_t state = (uint64_t)round, seed = test_random(&state);
+        uint64_t state = (uint64_t)round, seed = random_next(&state);
         int32_t count = (int32_t)test_between(&state, 0, 8);
         cage_ball ball[8];
         struct built from, more_of;
@@ -118,8 +120,8 @@ START_TEST(equals_its_definition)
         without_gaps(&more_of.t, &dense);
         complex_of(&dense, NULL, &got);
         complex_define(dim, dense.site, dense.sites, &defined);
-        ck_assert_msg(complex_equal(&got, &defined), "%s, dim %d, %d and %d balls, round %d: %d simplices, not %d", balls_text(kind), (int)dim,
-                      (int)count, (int)added, (int)round, (int)got.count, (int)defined.count);
+        ck_assert_msg(complex_equal(&got, &defined), "%s, dim %d, %d and %d balls, round %d: %d simplices, not %d",
+                      balls_text(kind), (int)dim, (int)count, (int)added, (int)round, (int)got.count, (int)defined.count);
         grown += dense.simplices > from.t.simplices;
         complex_free(&got);
         complex_free(&defined);
@@ -160,7 +162,8 @@ START_TEST(equals_itself)
             if (dense[1].simplex[s].twin[i] != CAGE_HULL) {
                 int32_t twin = dense[1].simplex[s].twin[i];
                 long ties = 0;
-                test_require(exact_above(dim, halves.t.site, dense[1].simplex[s].v, halves.t.simplex[twin >> 2].v[twin & 3], &ties) > 0);
+                test_require(
+                    exact_above(dim, halves.t.site, dense[1].simplex[s].v, halves.t.simplex[twin >> 2].v[twin & 3], &ties) > 0);
             }
     for (int k = 0; k < 2; k++) {
         complex_free(&got[k]);

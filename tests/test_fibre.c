@@ -37,7 +37,7 @@ static struct cage_cell any_cell(uint64_t *state)
     int32_t level = (int32_t)test_between(state, 0, fibre->max_level);
     struct cage_cell cell = {level, (int32_t)test_between(state, 0, 1), {0, 0, 0}};
     cell.at[0] = (int32_t)test_between(state, 0, (1 << level) - 1);
-    if (test_random(state) & 1) /* next to the seams of the faces and to their middle */
+    if (random_next(state) & 1) /* next to the seams of the faces and to their middle */
         cell.at[0] = (int32_t)((int64_t)(test_between(state, 0, 4) * ((1 << level) - 1)) / 4);
     return cell;
 }
@@ -58,7 +58,7 @@ static void rotation_within(uint64_t *state, const struct cage_cell *cell, int32
     if (a.w * b.w + a.z * b.z < 0 || cell->level == 0) /* 90 degrees apart at most */
         test_require(a.w * b.w + a.z * b.z >= 0);
     int64_t n = test_between(state, 0, 1 << 20), of = 1 << 20;
-    n = test_random(state) & 1 ? n : test_between(state, 0, 1) * of;
+    n = random_next(state) & 1 ? n : test_between(state, 0, 1) * of;
     q[0] = (int32_t)((a.w * (of - n) + b.w * n) / of);
     q[3] = (int32_t)((a.z * (of - n) + b.z * n) / of);
     q[1] = q[2] = 0;

@@ -119,7 +119,8 @@ static void check_points(const struct glued *c, const struct glued *d, const str
     }
 }
 
-static int32_t check_touches(const struct glued *c, const struct glued *d, const struct cage_touch *touch, int32_t count, int32_t mixed)
+static int32_t check_touches(const struct glued *c, const struct glued *d, const struct cage_touch *touch, int32_t count,
+                             int32_t mixed)
 {
     int32_t thin = 0, at_c = 0, at_d = 0;
     for (int32_t i = 0; i < count; i++) {
@@ -188,7 +189,8 @@ START_TEST(glues_what_touches)
         glued_free(&d);
         free(world.block);
     }
-    printf("glue: %d gluings, %d pairs, %d of them more than one, %d by a mixture, %d points of components thinner than the grid, %d pairs by seeds\n",
+    printf("glue: %d gluings, %d pairs, %d of them more than one, %d by a mixture, %d points of components thinner than the "
+           "grid, %d pairs by seeds\n",
            (int)(2 * rounds), (int)pairs, (int)several, (int)mixtures, (int)thin, (int)seeded);
     ck_assert(several > rounds / 10);
 }

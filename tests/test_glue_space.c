@@ -101,7 +101,8 @@ static void check_by_force(uint64_t seed, const struct whole *mixture, const str
 START_TEST(glues_what_touches)
 {
     static bool wanted[GLUED_MOST][GLUED_MOST];
-    int32_t rounds = test_rounds(_i == 2 ? 1000 : 500), mixtures = 0, pairs = 0, seeded = 0, several = 0, components = 0, points = 0;
+    int32_t rounds = test_rounds(_i == 2 ? 1000 : 500), mixtures = 0, pairs = 0, seeded = 0, several = 0, components = 0,
+            points = 0;
     for (int32_t seed = 0; seed < rounds; seed++) {
         int32_t count, others, mixed, mixed_back;
         struct whole mixture;
@@ -111,7 +112,8 @@ START_TEST(glues_what_touches)
         check_regions(&world.c);
         check_regions(&world.d);
         ck_assert_int_eq(cage_glue(&world.arena, &world.c.slice, &world.d.slice, CAGE_ALL, &touch, &count, &mixed), CAGE_OK);
-        ck_assert_int_eq(cage_glue(&world.arena, &world.d.slice, &world.c.slice, CAGE_ALL, &other, &others, &mixed_back), CAGE_OK);
+        ck_assert_int_eq(cage_glue(&world.arena, &world.d.slice, &world.c.slice, CAGE_ALL, &other, &others, &mixed_back),
+                         CAGE_OK);
         glued_check(touch, count, wanted, glued_pairs(&world.c, &world.d, &mixture, wanted));
         ck_assert_int_eq(count, others);
         for (int32_t i = 0; i < count; i++)
@@ -130,8 +132,9 @@ START_TEST(glues_what_touches)
         whole_free(&mixture);
         world_free();
     }
-    printf("glue: dim %d: %d gluings of %d components, %d pairs, %d of them more than one, %d by a mixture, %d pairs by seeds, %d points\n", _i,
-           (int)(2 * rounds), (int)components, (int)pairs, (int)several, (int)mixtures, (int)seeded, (int)points);
+    printf("glue: dim %d: %d gluings of %d components, %d pairs, %d of them more than one, %d by a mixture, %d pairs by seeds, "
+           "%d points\n",
+           _i, (int)(2 * rounds), (int)components, (int)pairs, (int)several, (int)mixtures, (int)seeded, (int)points);
     ck_assert(several > rounds / 10 && mixtures > rounds / 20);
 }
 END_TEST

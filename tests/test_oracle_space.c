@@ -298,7 +298,8 @@ START_TEST(no_contradiction)
         space_question q = question_of(&s, &view);
         if (oracle_space_depth(&view, &s.start, CAGE_SIDE_INNER) < -1 &&
             (!q.goal || oracle_space_depth(&view, q.goal, CAGE_SIDE_INNER) < -1)) {
-            int apart = oracle_space_separated(&q, &effort, &audit, &how), together = oracle_space_joined(&q, &effort, &audit, &how);
+            int apart = oracle_space_separated(&q, &effort, &audit, &how),
+                together = oracle_space_joined(&q, &effort, &audit, &how);
             ck_assert_msg(!apart || !together, "seed %ld", (long)seed);
             both[0] += apart;
             both[1] += together;

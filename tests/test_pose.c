@@ -191,10 +191,12 @@ START_TEST(scene_errors)
         expect_scene(&s, CAGE_ERROR_DIMENSION);
     }
     const int32_t most = CAGE_REACH_2D;
-    const cage_ball bad[9] = {{0, 0, 1, 1},      {0, 0, 0, -1},         {0, 0, 0, INT32_MIN}, {most + 1, 0, 0, 0}, {0, INT32_MIN, 0, 0},
-                              {0, 0, 0, most + 1}, {INT32_MAX, 0, 0, 0}, {0, 0, 0, most},      {most, most, 0, 0}};
-    static const int32_t error[9] = {CAGE_ERROR_DIMENSION, CAGE_ERROR_RADIUS, CAGE_ERROR_RADIUS, CAGE_ERROR_RANGE, CAGE_ERROR_RANGE,
-                                     CAGE_ERROR_RANGE,     CAGE_ERROR_RANGE,  CAGE_ERROR_RANGE,  CAGE_ERROR_RANGE};
+    const cage_ball bad[9] = {{0, 0, 1, 1},         {0, 0, 0, -1},        {0, 0, 0, INT32_MIN},
+                              {most + 1, 0, 0, 0},  {0, INT32_MIN, 0, 0}, {0, 0, 0, most + 1},
+                              {INT32_MAX, 0, 0, 0}, {0, 0, 0, most},      {most, most, 0, 0}};
+    static const int32_t error[9] = {CAGE_ERROR_DIMENSION, CAGE_ERROR_RADIUS, CAGE_ERROR_RADIUS,
+                                     CAGE_ERROR_RANGE,     CAGE_ERROR_RANGE,  CAGE_ERROR_RANGE,
+                                     CAGE_ERROR_RANGE,     CAGE_ERROR_RANGE,  CAGE_ERROR_RANGE};
     for (int k = 0; k < 4 * 9; k++) {
         const cage_ball two[2] = {unit, bad[k % 9]};
         cage_scene s = good;

@@ -7,7 +7,22 @@
 #include "exact.h"
 #include "sites.h"
 
-enum { SIDE, CONFLICT, VOLUME, POWER, CENTRE, CENTRE_POWER, CENTRE_SIDE, OFF, FACET_POWER, ATTACHED, COVERED, SOLID, NORM, PREDICATES };
+enum {
+    SIDE,
+    CONFLICT,
+    VOLUME,
+    POWER,
+    CENTRE,
+    CENTRE_POWER,
+    CENTRE_SIDE,
+    OFF,
+    FACET_POWER,
+    ATTACHED,
+    COVERED,
+    SOLID,
+    NORM,
+    PREDICATES
+};
 static const char *const names[PREDICATES] = {"side", "conflict", "volume", "power", "centre", "centre power",
                                               "centre side", "off", "facet power", "attached", "covered", "solid", "norm"};
 
@@ -80,7 +95,8 @@ static void measure(int count, const struct cage_site *const v[], int64_t square
     }
 }
 
-/* A tetrahedron that holds its orthocentre is proved to be covered only if the power there is not positive. (The rest is in test_cover.c.) */
+/* A tetrahedron that holds its orthocentre is proved to be covered only if the power there is not positive. (The rest
+ * is in test_cover.c.) */
 static void check_solid(int dim, const struct cage_site *const v[4], struct exact_centre *centre, mpq_t l[4])
 {
     int64_t square[4][4], weight[4];
@@ -240,9 +256,9 @@ START_TEST(definitions)
         for (int32_t round = test_rounds(1500); round > 0; round--) {
             struct cage_site s[13];
             sites_make(&state, dim, (enum sites_kind)kind, 10, s);
-            sites_make(&state, dim, (enum sites_kind)(test_random(&state) % SITES_KINDS), 3, s + 10);
+            sites_make(&state, dim, (enum sites_kind)(random_next(&state) % SITES_KINDS), 3, s + 10);
             const struct cage_site *v[4] = {s, s + 1, s + 2, s + 3}, *w[4] = {s + 4, s + 5, s + 6, s + 7};
-            const struct cage_site *p = &s[8 + test_random(&state) % 5], *facet[3] = {s + 8, s + 9, s + 4};
+            const struct cage_site *p = &s[8 + random_next(&state) % 5], *facet[3] = {s + 8, s + 9, s + 4};
             if (sites_orient(dim, v) && (sites_orient(dim, w) || (memcpy(w, v, sizeof w), true)))
                 check_simplex(dim, v, w, p, &centre, l, value);
             if (!sites_sentinel_among(dim, facet))
@@ -262,17 +278,17 @@ START_TEST(norms)
     mpz_t n[3], g, norm, square;
     mpz_inits(n[0], n[1], n[2], g, norm, square, NULL);
     for (int32_t round = test_rounds(60000); round > 0; round--) {
-        const int *row = sites_pythagoras[test_random(&state) & 1][test_random(&state) % 6];
-        unsigned shift = (unsigned)(test_random(&state) % 118);
+        const int *row = sites_pythagoras[random_next(&state) & 1][random_next(&state) % 6];
+        unsigned shift = (unsigned)(random_next(&state) % 118);
         mpz_set_ui(norm, 0);
         for (int k = 0; k < 3; k++) {
-            mpz_set_si(n[k], test_random(&state) & 1 ? row[k] : -row[k]);
+            mpz_set_si(n[k], random_next(&state) & 1 ? row[k] : -row[k]);
             mpz_mul_2exp(n[k], n[k], shift);
             mpz_addmul(norm, n[k], n[k]);
         }
         mpz_set_si(g, row[3]);
         mpz_mul_2exp(g, g, shift);
-        int64_t off = test_random(&state) & 1 ? 0 : test_spread(&state, INT64_MAX);
+        int64_t off = random_next(&state) & 1 ? 0 : test_spread(&state, INT64_MAX);
         exact_set(square, off);
         mpz_add(g, g, square);
         mpz_abs(g, g);

@@ -1,4 +1,5 @@
-/* test_refuse.c: what the interface refuses: null pointers, z in the plane, turns without a shorter arc, blocks too small to begin. */
+/* test_refuse.c: what the interface refuses: null pointers, z in the plane, turns without a shorter arc, blocks too
+ * small to begin. */
 #include "support.h"
 
 #include <stdlib.h>
@@ -44,7 +45,8 @@ START_TEST(null_pointers)
     for (int null = 1; null < 16; null++)
         for (int more = 0; more < 4; more++)
             ck_assert_int_eq(cage_prove_begin(null & 1 ? NULL : &proof, null & 2 ? NULL : &held, null & 4 ? NULL : &origin,
-                                              more & 1 ? NULL : &origin, more & 2 ? NULL : &limits, null & 8 ? NULL : memory, PLENTY),
+                                              more & 1 ? NULL : &origin, more & 2 ? NULL : &limits, null & 8 ? NULL : memory,
+                                              PLENTY),
                              CAGE_ERROR_ARGUMENT);
     ck_assert_ptr_null(proof);
     ck_assert_int_eq(cage_prove_run(NULL, 0), CAGE_ERROR_ARGUMENT);
@@ -85,7 +87,8 @@ START_TEST(paths_stay_in_the_plane)
                 for (int goal = 0; goal < 2; goal++) {
                     cage_pose path[3] = {good[0], good[1], good[2]};
                     path[at].x[2] = z[k];
-                    ck_assert_int_eq(cage_path_check(scenes[s], &good[0], goal ? &good[2] : NULL, centre, path, 3), CAGE_ERROR_DIMENSION);
+                    ck_assert_int_eq(cage_path_check(scenes[s], &good[0], goal ? &good[2] : NULL, centre, path, 3),
+                                     CAGE_ERROR_DIMENSION);
                 }
         for (int k = 0; k < 2; k++) {
             const int32_t off[3] = {0, 0, z[k]};
@@ -234,8 +237,8 @@ START_TEST(the_size_is_enough)
                 unsigned char *memory = test_alloc(bytes + off), *block = memory + off;
                 memset(memory, 0xa5, off + (bytes < 4096 ? bytes : 4096));
                 cage_proof *proof = NULL;
-                ck_assert_int_eq(cage_prove_begin(&proof, &block_scene[s], &origin, with_goal ? &half_turned : NULL, &block_limits[l],
-                                                  block, bytes),
+                ck_assert_int_eq(cage_prove_begin(&proof, &block_scene[s], &origin, with_goal ? &half_turned : NULL,
+                                                  &block_limits[l], block, bytes),
                                  CAGE_OK);
                 ck_assert((unsigned char *)proof >= block && (unsigned char *)proof < block + bytes);
                 ck_assert_int_eq(cage_prove_run(proof, INT64_MAX), 1);

@@ -15,7 +15,7 @@ static const struct cage_fibre *const fibre = &cage_so3;
 /* Any quaternion but 0, entries up to 2^24 or at times 2^30: of every size, with zeros, with equal and opposite entries. */
 static void any_rotation(uint64_t *state, int32_t q[4])
 {
-    int64_t limit = test_random(state) % 8 ? ENTRY : 1 << 30;
+    int64_t limit = random_next(state) % 8 ? ENTRY : 1 << 30;
     int32_t kind = (int32_t)test_between(state, 0, 5);
     do {
         for (int e = 0; e < 4; e++) {
@@ -23,10 +23,10 @@ static void any_rotation(uint64_t *state, int32_t q[4])
                              : kind == 1 ? test_between(state, -1, 1) * limit
                              : kind == 2 ? test_between(state, -limit, limit)
                                          : test_spread(state, limit));
-            if (kind == 4 && test_random(state) & 1)
+            if (kind == 4 && random_next(state) & 1)
                 q[e] = 0;
-            if (kind >= 4 && e > 0 && test_random(state) & 1)
-                q[e] = (test_random(state) & 1 ? 1 : -1) * q[test_between(state, 0, e - 1)];
+            if (kind >= 4 && e > 0 && random_next(state) & 1)
+                q[e] = (random_next(state) & 1 ? 1 : -1) * q[test_between(state, 0, e - 1)];
         }
     } while (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0);
 }
@@ -34,11 +34,12 @@ static void any_rotation(uint64_t *state, int32_t q[4])
 /* g(m / one) = (m / one) (|m| / one + 2) / 3, times 3 one^2. */
 static int32_t slope(int32_t m, int32_t one) { return m * (abs(m) + 2 * one); }
 
-/* A rotation of the cell, by the design's formula, with `ends` of its three axes at an end and the others between; entries <= 2^24. */
+/* A rotation of the cell, by the design's formula, with `ends` of its three axes at an end and the others between;
+ * entries <= 2^24. */
 static void rotation_within(uint64_t *state, const struct cage_cell *cell, int32_t ends, int32_t q[4])
 {
     int32_t one = 1 << cell->level, most = ENTRY / (3 * one * one), order[3];
-    int64_t scale = test_random(state) & 1 ? most : test_between(state, 1, most), sign = test_random(state) & 1 ? 1 : -1;
+    int64_t scale = random_next(state) & 1 ? most : test_between(state, 1, most), sign = random_next(state) & 1 ? 1 : -1;
     test_shuffle(state, order, 3);
     for (int32_t e = 0, k = 0; e < 4; e++) {
         if (e == cell->face) {
@@ -46,7 +47,7 @@ static void rotation_within(uint64_t *state, const struct cage_cell *cell, int32
             continue;
         }
         int64_t low = scale * slope(2 * cell->at[k] - one, one), high = scale * slope(2 * cell->at[k] + 2 - one, one);
-        int64_t end = test_random(state) & 1 ? low : high;
+        int64_t end = random_next(state) & 1 ? low : high;
         q[e] = (int32_t)(sign * (order[k++] < ends ? end : test_between(state, low + 1, high - 1)));
     }
 }
@@ -76,7 +77,7 @@ static int32_t refine(uint64_t *state, int32_t cells, struct cage_cell *cell)
     for (int32_t tries = 0; count + fibre->children - 1 <= cells && tries < 100 * cells; tries++) {
         int32_t i = (int32_t)test_between(state, way == 1 && count > 8 ? count - 8 : 0, count - 1);
         struct cage_cell parent = cell[i];
-        if (parent.level == fibre->max_level || (way == 2 && !cube_holds(&parent, &focus) && test_random(state) % 64))
+        if (parent.level == fibre->max_level || (way == 2 && !cube_holds(&parent, &focus) && random_next(state) % 64))
             continue;
         fibre->child(&parent, 0, &cell[i]);
         for (int32_t k = 1; k < fibre->children; k++)
@@ -90,7 +91,7 @@ static struct cage_cell any_cell(uint64_t *state)
     struct cage_cell cell = {(int32_t)test_between(state, 0, fibre->max_level), (int32_t)test_between(state, 0, 3), {0, 0, 0}};
     for (int k = 0; k < 3; k++) {
         int32_t last = (1 << cell.level) - 1;
-        cell.at[k] = (int32_t)(test_random(state) & 1 ? test_between(state, 0, last) : test_between(state, 0, 4) * last / 4);
+        cell.at[k] = (int32_t)(random_next(state) & 1 ? test_between(state, 0, last) : test_between(state, 0, 4) * last / 4);
     }
     return cell;
 }
@@ -106,7 +107,7 @@ static struct cage_cell cell_at(uint64_t *state, const int32_t u[4])
     for (int32_t e = 0, k = 0; e < 4; e++) {
         int32_t at = u[cell.face] == 0 ? CUBE_WIDTH - u[e] : u[e];
         if (e != cell.face)
-            cell.at[k++] = at / size - (at == CUBE_WIDTH || (at > 0 && at % size == 0 && test_random(state) & 1));
+            cell.at[k++] = at / size - (at == CUBE_WIDTH || (at > 0 && at % size == 0 && random_next(state) & 1));
     }
     return cell;
 }
@@ -219,7 +220,8 @@ static void check_common(const struct cage_cell *a, const struct cage_cell *b)
         test_require(q[e] >= -ENTRY && q[e] <= ENTRY);
 }
 
-/* Among cells that tile, touch() is true for the pairs that share a piece of a facet and for no other; the pieces make up all facets. */
+/* Among cells that tile, touch() is true for the pairs that share a piece of a facet and for no other; the pieces
+ * make up all facets. */
 START_TEST(knows_its_neighbours)
 {
     int32_t rounds = test_rounds(60), across = 0, twice = 0, levels = 0;
@@ -293,7 +295,7 @@ START_TEST(touches_across_levels)
         int32_t u[4], step = CUBE_WIDTH >> test_between(&state, 0, 11);
         for (int e = 0; e < 4; e++)
             u[e] = step * (int32_t)test_between(&state, 0, CUBE_WIDTH / step);
-        u[test_between(&state, 0, 3)] = test_random(&state) & 1 ? 0 : CUBE_WIDTH;
+        u[test_between(&state, 0, 3)] = random_next(&state) & 1 ? 0 : CUBE_WIDTH;
         struct cage_cell a = cell_at(&state, u), b = any_cell(&state);
         int32_t *entry = &u[test_between(&state, 0, 3)];
         if (i % 4 == 1 && *entry > 1 && *entry < CUBE_WIDTH - 1) /* next to each other, at times with a gap between */
@@ -400,7 +402,7 @@ START_TEST(displaces_no_farther)
     for (int32_t round = 0; round < rounds; round++) {
         struct cage_cell cell = any_cell(&state);
         int32_t q[4], other[4], at[3], to[3], y[3];
-        int64_t limit = test_random(&state) & 1 ? CAGE_REACH_3D : ENTRY, gap = 0;
+        int64_t limit = random_next(&state) & 1 ? CAGE_REACH_3D : ENTRY, gap = 0;
         for (int k = 0; k < 3; k++)
             y[k] = (int32_t)test_spread(&state, limit);
         fibre->representative(&cell, q);
@@ -429,7 +431,8 @@ START_TEST(displaces_no_farther)
 }
 END_TEST
 
-/* The corners, and what the distances to them allow for: never less than any rotation of the cell moves a centre, nor more than the turn. */
+/* The corners, and what the distances to them allow for: never less than any rotation of the cell moves a centre, nor
+ * more than the turn. */
 START_TEST(corners_displace_no_farther)
 {
     uint64_t state = 11;
@@ -448,8 +451,9 @@ START_TEST(corners_displace_no_farther)
         test_require(found == 8);
         cage_corners_of(q, end, &corners);
         for (int k = 0; k < 3; k++)
-            y[k] = (int32_t)test_spread(&state, test_random(&state) % 4 ? 1200000 : 20);
-        int32_t displacement = cage_displacement_within(&corners, y), of_turn = cage_displacement(fibre->turn(&cell), cage_length(y));
+            y[k] = (int32_t)test_spread(&state, random_next(&state) % 4 ? 1200000 : 20);
+        int32_t displacement = cage_displacement_within(&corners, y),
+                of_turn = cage_displacement(fibre->turn(&cell), cage_length(y));
         long double x[3], z[3], most = 0;
         rotated(q, y, x);
         for (int32_t i = 0; i < 40; i++) {
@@ -480,7 +484,7 @@ static struct cage_cell mirrored(uint64_t *state, const struct cage_cell *cell)
     int32_t order[3];
     test_shuffle(state, order, 3);
     for (int k = 0; k < 3; k++)
-        out.at[k] = test_random(state) & 1 ? cell->at[order[k]] : (1 << cell->level) - 1 - cell->at[order[k]];
+        out.at[k] = random_next(state) & 1 ? cell->at[order[k]] : (1 << cell->level) - 1 - cell->at[order[k]];
     return out;
 }
 

@@ -180,9 +180,9 @@ START_TEST(extreme_pairs)
     for (int i = 0; i < WORDS * WORDS; i++)
         for (int j = 0; j < WORDS * WORDS; j++) {
             /* The upper halves only matter to 256-bit sums: take them from the same extremes. */
-            words a = {{word[i % WORDS], word[i / WORDS], word[test_random(&state) % WORDS], word[j % WORDS]}};
-            words b = {{word[j % WORDS], word[j / WORDS], word[test_random(&state) % WORDS], word[i % WORDS]}};
-            compare(a, b, (int64_t)word[test_random(&state) % WORDS]);
+            words a = {{word[i % WORDS], word[i / WORDS], word[random_next(&state) % WORDS], word[j % WORDS]}};
+            words b = {{word[j % WORDS], word[j / WORDS], word[random_next(&state) % WORDS], word[i % WORDS]}};
+            compare(a, b, (int64_t)word[random_next(&state) % WORDS]);
         }
     judge(100);
     numbers_clear();
@@ -212,18 +212,18 @@ static words random_words(uint64_t *state, int count)
     words out = {{0, 0, 0, 0}};
     unsigned bits = (unsigned)test_between(state, 0, 64 * count), run = (unsigned)test_between(state, 0, 64 * count);
     for (int i = 0; i < count; i++)
-        out.word[i] = test_random(state);
+        out.word[i] = random_next(state);
     number_of(x, out, count, false);
     mpz_fdiv_r_2exp(x, x, bits);
     mpz_fdiv_q_2exp(y, x, run);
     mpz_mul_2exp(y, y, run);
-    if (test_random(state) % 4 == 0)
+    if (random_next(state) % 4 == 0)
         mpz_set(x, y);
     mpz_mul_2exp(u, one, run);
     mpz_sub_ui(u, u, 1);
-    if (test_random(state) % 4 == 0)
+    if (random_next(state) % 4 == 0)
         mpz_ior(x, x, u);
-    if (test_random(state) & 1)
+    if (random_next(state) & 1)
         mpz_neg(x, x);
     return words_of(x, count);
 }
@@ -234,7 +234,7 @@ START_TEST(random_pairs)
     uint64_t state = 3;
     int32_t rounds = test_rounds(100000);
     for (int32_t i = 0; i < rounds; i++) {
-        int count = test_random(&state) % 4 ? 2 : 4;
+        int count = random_next(&state) % 4 ? 2 : 4;
         words a = random_words(&state, count), b = random_words(&state, count);
         int64_t c = test_spread(&state, INT64_MAX);
         compare(a, b, c);
@@ -262,7 +262,7 @@ START_TEST(rounding_edges)
         set_int64(u, off);
         mpz_add(x, x, u); /* x / y is a whole number and a half, or just beside it */
         words a = words_of(x, 2), b = words_of(y, 2), right, got;
-        int64_t limit = test_random(&state) & 1 ? INT64_MAX : test_spread(&state, INT64_MAX);
+        int64_t limit = random_next(&state) & 1 ? INT64_MAX : test_spread(&state, INT64_MAX);
         if (define(WIDE_NEAREST, a, b, limit, &right))
             for (int k = 0; k < 2; k++) {
                 got = backends[k]->wide(WIDE_NEAREST, a, b, limit);

@@ -1,6 +1,8 @@
 /* test_workers.c: workers change no byte of an answer, whatever they are. */
-#include <check.h>
+#include "support.h"
+
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,19 +17,11 @@
 static unsigned char *block, *spare, *help;
 static long done_by_workers;
 
-static int32_t scenes_wanted(void)
-{
-    const char *text = getenv("CAGE_TEST_SCENES");
-    long n = text ? strtol(text, NULL, 10) : 60;
-    return n < 1 ? 1 : n > 1000000 ? 1000000 : (int32_t)n;
-}
-
 static void blocks_make(void)
 {
-    block = malloc(PLENTY);
-    spare = malloc(PLENTY);
-    help = malloc(HELP + 2 * GUARD);
-    ck_assert(block && spare && help);
+    block = test_alloc(PLENTY);
+    spare = test_alloc(PLENTY);
+    help = test_alloc(HELP + 2 * GUARD);
 }
 
 static void blocks_drop(void)
@@ -124,9 +118,11 @@ static int32_t prove_with(const question *q, const cage_workers *workers, int64_
 }
 
 /* All of it, the counts on the way to an error included; a path is compared apart. */
-static void expect_same(uint64_t seed, int32_t state, const cage_result *r, int32_t right_state, const cage_result *right, const char *what)
+static void expect_same(uint64_t seed, int32_t state, const cage_result *r, int32_t right_state, const cage_result *right,
+                        const char *what)
 {
-    ck_assert_msg(state == right_state, "seed %lu: %s: state %d, not %d", (unsigned long)seed, what, (int)state, (int)right_state);
+    ck_assert_msg(state == right_state, "seed %lu: %s: state %d, not %d", (unsigned long)seed, what, (int)state,
+                  (int)right_state);
     const char *wrong = referee_difference(right, r, 1);
     ck_assert_msg(!wrong, "seed %lu: %s: %s", (unsigned long)seed, what, wrong ? wrong : "");
     ck_assert_msg(r->needed_bytes == right->needed_bytes, "seed %lu: %s: needed_bytes", (unsigned long)seed, what);
@@ -153,23 +149,30 @@ static void try_workers(const question *q, uint64_t seed, size_t bytes)
         int32_t state = prove_with(q, &workers, kind == 3 ? 37 : 1000000000, spare, bytes, &r);
         expect_same(seed, state, &r, right_state, &right, "workers");
         for (size_t i = 0; i < GUARD; i++) {
-            ck_assert_msg(help[i] == 0xa5 && help[GUARD + memory + i] == 0x5a, "seed %lu: written beyond the memory", (unsigned long)seed);
+            ck_assert_msg(help[i] == 0xa5 && help[GUARD + memory + i] == 0x5a, "seed %lu: written beyond the memory",
+                          (unsigned long)seed);
         }
     }
 }
 
+/* With room for all slices, and in a block that is just enough to begin or too small for that. */
+static void ask(const cage_scene *view, const cage_pose *start, const cage_pose *goal, uint64_t seed, int32_t cells)
+{
+    cage_limits limits;
+    cage_limits_default(&limits, view->dim);
+    limits.max_cells = cells;
+    question q = {view, start, goal, &limits};
+    try_workers(&q, seed, PLENTY);
+    try_workers(&q, seed, cage_prove_size(view, &limits) / (size_t)(1 + seed % 3));
+}
+
 START_TEST(plane_is_the_same)
 {
-    for (int32_t seed = 0; seed < scenes_wanted() / 10 + 1; seed++) {
+    for (uint64_t seed = 500; seed < 501 + (uint64_t)test_scenes(60) / 10; seed++) {
         scene s;
-        scene_random((uint64_t)seed + 500, &s);
+        scene_random(seed, &s);
         cage_scene view = scene_view(&s);
-        cage_limits limits;
-        cage_limits_default(&limits, 2);
-        limits.max_cells = 200;
-        question q = {&view, &s.start, scene_goal(&s), &limits};
-        try_workers(&q, s.seed, PLENTY);
-        try_workers(&q, s.seed, cage_prove_size(&view, &limits) / (size_t)(1 + seed % 3));
+        ask(&view, &s.start, scene_goal(&s), seed, 200);
     }
 }
 END_TEST
@@ -177,16 +180,11 @@ END_TEST
 START_TEST(space_is_the_same)
 {
     done_by_workers = 0;
-    for (int32_t seed = 0; seed < scenes_wanted() / 20 + 1; seed++) {
+    for (uint64_t seed = 500; seed < 501 + (uint64_t)test_scenes(60) / 20; seed++) {
         space_scene s;
-        space_random((uint64_t)seed + 500, &s);
+        space_random(seed, &s);
         cage_scene view = space_view(&s);
-        cage_limits limits;
-        cage_limits_default(&limits, 3);
-        limits.max_cells = 48;
-        question q = {&view, &s.start, space_goal(&s), &limits};
-        try_workers(&q, s.seed, PLENTY);
-        try_workers(&q, s.seed, cage_prove_size(&view, &limits) / (size_t)(1 + seed % 3));
+        ask(&view, &s.start, space_goal(&s), seed, 48);
     }
     printf("workers: %ld slices and gluings in space\n", done_by_workers);
     ck_assert_int_gt(done_by_workers, 0);
@@ -211,7 +209,8 @@ START_TEST(bad_workers_are_refused)
     for (int32_t count = -1; count <= 96; count++) {
         workers.count = count;
         int32_t state = cage_prove_run_with(proof, 1, &workers);
-        ck_assert_msg(count >= 1 && count <= 64 ? state >= 0 : state == CAGE_ERROR_ARGUMENT, "%d workers: %d", (int)count, (int)state);
+        ck_assert_msg(count >= 1 && count <= 64 ? state >= 0 : state == CAGE_ERROR_ARGUMENT, "%d workers: %d", (int)count,
+                      (int)state);
     }
     ck_assert_int_eq(cage_prove_run_with(NULL, 1, &workers), CAGE_ERROR_ARGUMENT);
 }
@@ -220,16 +219,10 @@ END_TEST
 int main(void)
 {
     Suite *suite = suite_create("workers");
-    TCase *tests = tcase_create("workers");
-    tcase_set_timeout(tests, 0);
+    TCase *tests = test_case(suite, "workers");
     tcase_add_unchecked_fixture(tests, blocks_make, blocks_drop);
     tcase_add_test(tests, plane_is_the_same);
     tcase_add_test(tests, space_is_the_same);
     tcase_add_test(tests, bad_workers_are_refused);
-    suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? 1 : 0;
+    return test_main(suite);
 }

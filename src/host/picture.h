@@ -30,8 +30,8 @@ int picture_inside(const picture_box *box, const picture_stop *stop);
 /* A pose of the object's origin (as start and goal are), and where a pose puts the centre of an object ball. */
 void picture_stop_at(const host_answer *answer, const cage_pose *pose, picture_stop *stop);
 void picture_place(const host_answer *answer, const picture_stop *stop, const host_ball *ball, double at[3]);
-/* At most so many poses, evenly along the part of the path whose pivots are in the box, half the object's radius apart at least, the
- * start not among them; returns how many. */
+/* At most so many poses, evenly along the part of the path whose pivots are in the box, half the object's radius
+ * apart at least, the start not among them; returns how many. */
 int picture_trail(const host_answer *answer, const picture_box *box, picture_stop *stop, int most);
 
 /* ---- cloud.c ------------------------------------------------------------------------------------ */

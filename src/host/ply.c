@@ -1,7 +1,8 @@
 /* ply.c: a scene in space as a mesh with colours, in ASCII PLY: balls as icospheres, the pivot's region as small cubes.
  *
- * Obstacles are grey (their alpha lets viewers that know it look inside), the object is blue at the start, orange at the goal, and
- * on its way from violet to yellow; what collides is red. Where the pivot stays for ever is a skin of small green cubes. */
+ * Obstacles are grey (their alpha lets viewers that know it look inside), the object is blue at the start, orange at
+ * the goal, and on its way from violet to yellow; what collides is red. Where the pivot stays for ever is a skin of
+ * small green cubes. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -178,8 +179,9 @@ static int32_t add_cubes(mesh *made, const picture_cloud *cloud, double unit)
                 const int32_t i = at[0], j = at[1], l = at[2];
 
                 if (!picture_marked(cloud, i, j, l) ||
-                    (picture_marked(cloud, i - 1, j, l) && picture_marked(cloud, i + 1, j, l) && picture_marked(cloud, i, j - 1, l) &&
-                     picture_marked(cloud, i, j + 1, l) && picture_marked(cloud, i, j, l - 1) && picture_marked(cloud, i, j, l + 1)))
+                    (picture_marked(cloud, i - 1, j, l) && picture_marked(cloud, i + 1, j, l) &&
+                     picture_marked(cloud, i, j - 1, l) && picture_marked(cloud, i, j + 1, l) &&
+                     picture_marked(cloud, i, j, l - 1) && picture_marked(cloud, i, j, l + 1)))
                     continue;
                 if (made != NULL) {
                     part *cube = &made->cube[skin];

@@ -60,8 +60,8 @@ void host_prove_help(FILE *out)
         "  --max-cells N   cells made at most, up to %d (default %ld in the plane, %ld in space)\n"
         "  --memory BYTES  one block of this size and no more; K, M and G mean 1024, 1024^2, 1024^3.\n"
         "                  Without it the block is 256M, and grows to 4G when the proof needs it\n"
-        "  --threads N     work on so many cores (default: all); the answer and its counts are the same. Each\n"
-        "                  takes memory of its own, 4M to 256M\n"
+        "  --threads N     work on so many cores (default: all, with --memory one); the answer and its counts\n"
+        "                  are the same. More than one take memory of their own as well, 4M to 256M each\n"
         "  --unit U        length of a grid unit (default: the finest power of two at which the scene\n"
         "                  fits). Balls between grid points are rounded to the safe side\n"
         "  --json          print one JSON object instead of text\n"
@@ -387,7 +387,7 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
     cage_limits limits;
     double unit = 0;
     size_t bytes = 0;
-    int32_t threads = host_threads_cores();
+    int32_t threads = given->memory != NULL ? 1 : host_threads_cores();
     int progress = !given->quiet && isatty(STDERR_FILENO);
     int code = HOST_OK;
 

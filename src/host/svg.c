@@ -109,8 +109,9 @@ double svg_legend(FILE *out, double x, double y, const char *shape, const char *
 /* The marker at the end of a path. */
 void svg_arrow(FILE *out)
 {
-    (void)fprintf(out, "<marker id=\"arrow\" viewBox=\"0 0 10 10\" refX=\"8\" refY=\"5\" "
-                       "markerWidth=\"5\" markerHeight=\"5\" orient=\"auto\"><path d=\"M0 0L10 5L0 10z\" fill=\"#8e2466\"/></marker>\n");
+    (void)fprintf(
+        out, "<marker id=\"arrow\" viewBox=\"0 0 10 10\" refX=\"8\" refY=\"5\" "
+             "markerWidth=\"5\" markerHeight=\"5\" orient=\"auto\"><path d=\"M0 0L10 5L0 10z\" fill=\"#8e2466\"/></marker>\n");
 }
 
 /* A bar of 1, 2 or 5 times a power of ten units of the user, at most 160 pixels long, its right end at x. */

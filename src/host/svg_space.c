@@ -138,7 +138,8 @@ static void write_before(FILE *out, const seen_ball *ball, int32_t count, double
 
     while (first < count && ball[first].depth <= cut)
         first++;
-    (void)fprintf(out, "<g fill=\"#8c949e\" fill-opacity=\"0.05\" stroke=\"#3f4752\" stroke-width=\"0.8\" stroke-opacity=\"%.2f\">\n",
+    (void)fprintf(out,
+                  "<g fill=\"#8c949e\" fill-opacity=\"0.05\" stroke=\"#3f4752\" stroke-width=\"0.8\" stroke-opacity=\"%.2f\">\n",
                   0.25 + 0.5 * fmin(1, 20.0 / (count - first + 1)));
     for (i = first; i < count; i++)
         write_circle(out, &ball[i], "");
@@ -279,11 +280,12 @@ static void write_view(FILE *out, const svg_canvas *canvas, int view, const host
         picture_stop_at(answer, &answer->grid->goal, &goal);
         write_object(out, canvas, view, answer, &goal, goal_hit ? red : "#f7b267", goal_hit ? dark_red : "#c25e10", 0.8);
     }
-    write_object(out, canvas, view, answer, &start, hit && !goal_hit ? red : "#6ea2ea", hit && !goal_hit ? dark_red : "#1f57b0", 0.8);
+    write_object(out, canvas, view, answer, &start, hit && !goal_hit ? red : "#6ea2ea", hit && !goal_hit ? dark_red : "#1f57b0",
+                 0.8);
     if (result->path_count > 0)
         write_path(out, canvas, view, answer);
-    (void)fprintf(out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"2.5\" fill=\"#1c2733\"/>\n", svg_x(canvas, start.x[views[view].across]),
-                  svg_y(canvas, start.x[views[view].up]));
+    (void)fprintf(out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"2.5\" fill=\"#1c2733\"/>\n",
+                  svg_x(canvas, start.x[views[view].across]), svg_y(canvas, start.x[views[view].up]));
     if (ball != NULL)
         write_before(out, ball, obstacles->count, cut);
     (void)fprintf(out, "</g>\n");
@@ -293,7 +295,8 @@ static void write_view(FILE *out, const svg_canvas *canvas, int view, const host
 static void write_legend(FILE *out, const host_answer *answer, double x, double y)
 {
     x = svg_legend(out, x, y, "<circle cx=\"9\" r=\"7\" fill=\"#a3abb5\" stroke=\"#5b646f\"/>", "obstacles");
-    x = svg_legend(out, x, y, "<circle cx=\"9\" r=\"7\" fill=\"none\" stroke=\"#5b646f\" stroke-opacity=\"0.5\"/>", "nearer than the start");
+    x = svg_legend(out, x, y, "<circle cx=\"9\" r=\"7\" fill=\"none\" stroke=\"#5b646f\" stroke-opacity=\"0.5\"/>",
+                   "nearer than the start");
     x = svg_legend(out, x, y, "<circle cx=\"9\" r=\"7\" fill=\"#6ea2ea\" stroke=\"#1f57b0\"/>"
                               "<circle cx=\"9\" r=\"2.5\" fill=\"#1c2733\"/>", "start and pivot");
     if (answer->query->has_goal)

@@ -7,8 +7,8 @@
 
 #define MOST 64
 
-/* A tetrahedron takes about 50 bytes, a ball has about 7 in a slice and many more of what is needed to build it; and so many slices
- * a worker. */
+/* A tetrahedron takes about 50 bytes, a ball has about 7 in a slice and many more of what is needed to build it; and
+ * so many slices a worker. */
 #define BYTES_A_BALL 2000
 #define SLICES 24
 #define LEAST ((uint64_t)4 << 20)
@@ -90,8 +90,8 @@ host_threads *host_threads_start(int32_t count, uint64_t balls, cage_workers *wo
     count = count > MOST ? MOST : count;
     all = each * (uint64_t)count;
     threads->memory = all <= SIZE_MAX ? malloc((size_t)all) : NULL;
-    if (threads->memory == NULL || pthread_mutex_init(&threads->lock, NULL) != 0 || pthread_cond_init(&threads->wake, NULL) != 0 ||
-        pthread_cond_init(&threads->idle, NULL) != 0) {
+    if (threads->memory == NULL || pthread_mutex_init(&threads->lock, NULL) != 0 ||
+        pthread_cond_init(&threads->wake, NULL) != 0 || pthread_cond_init(&threads->idle, NULL) != 0) {
         free(threads->memory);
         free(threads);
         return NULL;

@@ -211,8 +211,8 @@ static double choose(struct cage_arena *arena, cage_ball *ball, int32_t balls)
     return taken;
 }
 
-/* The triangulations of all slices of a level: [0] of the balls kept, [1] of all balls, [2] of the balls kept and the choice of them;
- * slices: seconds to make the slices. */
+/* The triangulations of all slices of a level: [0] of the balls kept, [1] of all balls, [2] of the balls kept and the
+ * choice of them; slices: seconds to make the slices. */
 static void triangulations(const struct fence *fence, const cage_result *result, int32_t level, double seconds[3], double *slices)
 {
     static cage_ball ball[OBSTACLES * OBJECTS];
@@ -243,12 +243,47 @@ static void triangulations(const struct fence *fence, const cage_result *result,
     seconds[2] += seconds[0];
 }
 
+/* Whole proofs over uniform cells and the triangulations of the same slices, in turns; prints medians, and their ratios. */
+static void print_uniform(const struct fence *fence, int32_t level)
+{
+    enum { ROUNDS = 5 };
+    const int32_t cells = 2 << level;
+    double time[5][ROUNDS], ratio[5][ROUNDS];
+    cage_limits limits;
+    cage_result result;
+    cage_limits_default(&limits, 2);
+    limits.side = CAGE_SIDE_INNER;
+    limits.start_level = limits.max_level = level;
+    for (int32_t i = 0; i < ROUNDS; i++) {
+        double seconds[2], alone[3], slices;
+        prove(fence, &limits, 1, seconds, &result);
+        triangulations(fence, &result, level, alone, &slices);
+        const double all[5] = {seconds[0], alone[0], alone[1], alone[2], slices};
+        for (int32_t k = 0; k < 5; k++) {
+            time[k][i] = all[k];
+            ratio[k][i] = all[0] / all[k];
+        }
+    }
+    for (int32_t k = 0; k < 5; k++) {
+        qsort(time[k], ROUNDS, sizeof *time[k], bench_by_value);
+        qsort(ratio[k], ROUNDS, sizeof *ratio[k], bench_by_value);
+    }
+    const double seconds[2] = {time[0][0], time[0][ROUNDS / 2]};
+    char name[32];
+    snprintf(name, sizeof name, "%d uniform cells", cells);
+    print_proof(name, seconds, &result);
+    printf("  %-18s %9s %8.4f %8.4f\n", "  ... as 180 cells", "", seconds[0] * 180 / cells, seconds[1] * 180 / cells);
+    printf("  %-18s %9s %8.3f of all balls, %.3f of those kept, %.3f of choosing and triangulating them, %.3f of slices\n",
+           "  ... by the time of", "triang.", ratio[2][ROUNDS / 2], ratio[1][ROUNDS / 2], ratio[3][ROUNDS / 2],
+           ratio[4][ROUNDS / 2]);
+}
+
 static void print_fence(void)
 {
     static struct fence fence;
     cage_limits limits;
     cage_result result;
-    double seconds[2], ratio[2][4];
+    double seconds[2];
     make_fence(&fence);
     printf("\nfence scene, seconds of whole proofs (200 x 40 balls); counts of the inner side\n");
     printf("  %-18s %9s %8s %8s %6s %7s %6s %9s %9s %9s %6s\n", "limits", "verdict", "best", "median", "cells", "slices",
@@ -258,26 +293,8 @@ static void print_fence(void)
     print_proof("default", seconds, &result);
     if (result.verdict != CAGE_CAGED)
         bench_die("the fence must be proved CAGED");
-    for (int32_t level = 6; level <= 7; level++) {
-        char name[32];
-        limits.side = CAGE_SIDE_INNER;
-        limits.start_level = limits.max_level = level;
-        int32_t cells = 2 << level;
-        prove(&fence, &limits, 5, seconds, &result);
-        snprintf(name, sizeof name, "%d uniform cells", cells);
-        print_proof(name, seconds, &result);
-        printf("  %-18s %9s %8.4f %8.4f\n", "  ... as 180 cells", "", seconds[0] * 180 / cells, seconds[1] * 180 / cells);
-        double alone[3], slices;
-        triangulations(&fence, &result, level, alone, &slices);
-        ratio[level - 6][0] = seconds[1] / alone[0];
-        ratio[level - 6][1] = seconds[1] / alone[1];
-        ratio[level - 6][2] = seconds[1] / alone[2];
-        ratio[level - 6][3] = seconds[1] / slices;
-    }
-    printf("\nthe same proofs over uniform cells: time divided by that of\n");
-    printf("  %-18s %22s %22s %22s %10s\n", "", "triangulations (kept)", "triangulations (all)", "(kept) and the choice", "slices");
-    for (int32_t i = 0; i < 2; i++)
-        printf("  %3d %-14s %22.3f %22.3f %22.3f %10.3f\n", 128 << i, "uniform cells", ratio[i][0], ratio[i][1], ratio[i][2], ratio[i][3]);
+    print_uniform(&fence, 6);
+    print_uniform(&fence, 7);
 }
 
 static void print_set(int number, int runs)
@@ -285,7 +302,7 @@ static void print_set(int number, int runs)
     struct bench_set set;
     struct timing t;
     if (number < 0 || number >= BENCH_SETS)
-        bench_die("usage: bench [SET [RUNS] | space SCENE FILE | uniform]");
+        bench_die("usage: bench [SET [RUNS] | fence | space SCENE FILE | uniform]");
     bench_set_make(&set, number);
     time_set(&set, runs > 0 ? runs : bench_runs(&set), &t);
     printf("%s %d %d %.1f %.1f %d %d\n", set.name, set.dim, set.count, t.best, t.median, t.simplices, t.vertices);
@@ -301,6 +318,8 @@ int main(int argc, char **argv)
         bench_space_print(block, atoi(argv[2]), argv[3]);
     } else if (argc > 1 && !strcmp(argv[1], "uniform")) {
         bench_uniform_print(block);
+    } else if (argc > 1 && !strcmp(argv[1], "fence")) {
+        print_fence();
     } else if (argc > 1) {
         print_set(atoi(argv[1]), argc > 2 ? atoi(argv[2]) : 0);
     } else {

@@ -33,9 +33,11 @@ struct bench_space {
 void bench_space_make(struct cage_arena *arena, int32_t obstacles, int32_t objects, double fill, struct bench_space *out);
 
 /* The inner slice of a cell, made as the search does. */
-void bench_space_slice(struct cage_arena *arena, const struct cage_side *side, const struct cage_cell *cell, struct cage_slice *out);
+void bench_space_slice(struct cage_arena *arena, const struct cage_side *side, const struct cage_cell *cell,
+                       struct cage_slice *out);
 
-/* Slices of scene 0..BENCH_SPACES-1, each glued with three neighbours: a line for each, and their collision balls into the file. */
+/* Slices of scene 0..BENCH_SPACES-1, each glued with three neighbours: a line for each, and their collision balls
+ * into the file. */
 void bench_space_print(void *block, int32_t number, const char *file);
 
 /* ---- uniform.c ------------------------------------------------------------------------------------ */

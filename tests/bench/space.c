@@ -59,7 +59,8 @@ void bench_space_make(struct cage_arena *arena, int32_t obstacles, int32_t objec
         bench_die("the scene does not fit");
 }
 
-void bench_space_slice(struct cage_arena *arena, const struct cage_side *side, const struct cage_cell *cell, struct cage_slice *out)
+void bench_space_slice(struct cage_arena *arena, const struct cage_side *side, const struct cage_cell *cell,
+                       struct cage_slice *out)
 {
     struct cage_rotations rotations;
     struct cage_corners corners;
@@ -73,8 +74,8 @@ void bench_space_slice(struct cage_arena *arena, const struct cage_side *side, c
 }
 
 /* A slice that is packed, as the search keeps it. */
-static void make_packed(struct cage_arena *arena, void *room, size_t bytes, const struct cage_side *side, const struct cage_cell *cell,
-                        struct cage_slice *out)
+static void make_packed(struct cage_arena *arena, void *room, size_t bytes, const struct cage_side *side,
+                        const struct cage_cell *cell, struct cage_slice *out)
 {
     struct cage_slice made;
     size_t mark = arena->used;
@@ -107,7 +108,8 @@ static void neighbours_of(const struct cage_cell *cell, struct cage_cell out[NEI
 }
 
 /* Seconds that gluing with the neighbours takes, and how many of these needed a mixture. */
-static double glue(struct cage_arena *arena, const struct cage_slice *slice, const struct cage_slice *neighbour, int32_t seed, int32_t *mixtures)
+static double glue(struct cage_arena *arena, const struct cage_slice *slice, const struct cage_slice *neighbour, int32_t seed,
+                   int32_t *mixtures)
 {
     double taken = 0;
     *mixtures = 0;
@@ -133,7 +135,8 @@ static void write_balls(FILE *file, const struct cage_side *side, const struct c
         bench_die("the balls were not written");
 }
 
-/* One cell: balls, those kept, components, ns of the slice, of gluing all components and of the home's alone, mixtures of either. */
+/* One cell: balls, those kept, components, ns of the slice, of gluing all components and of the home's alone,
+ * mixtures of either. */
 static void print_cell(struct cage_arena *arena, const struct bench_space *space, const struct cage_cell *cell, FILE *file)
 {
     const size_t bytes = (size_t)16 << 20;
@@ -157,8 +160,8 @@ static void print_cell(struct cage_arena *arena, const struct bench_space *space
         bench_die("the hook is not at home in the shell");
     double main = glue(arena, &slice, neighbour, seed, &mixtures[1]);
     if (file) {
-        printf("%d %d %d %.0f %.0f %.0f %d %d\n", (int)slice.balls, slice.t.sites - 4, slice.regions, 1e9 * made, 1e9 * all, 1e9 * main,
-               mixtures[0], mixtures[1]);
+        printf("%d %d %d %.0f %.0f %.0f %d %d\n", (int)slice.balls, slice.t.sites - 4, slice.regions, 1e9 * made, 1e9 * all,
+               1e9 * main, mixtures[0], mixtures[1]);
         write_balls(file, &space->side, &slice);
     }
     cage_arena_release(arena, mark);

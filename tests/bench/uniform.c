@@ -110,7 +110,8 @@ static void print_run(unsigned char *block, double fill)
 
 void bench_uniform_print(void *block)
 {
-    printf("\nspace, %d x %d balls: all inner slices of level %d, all neighbours glued; seconds, most bytes held (facts among them)\n",
+    printf("\nspace, %d x %d balls: all inner slices of level %d, all neighbours glued; seconds, most bytes held (facts among "
+           "them)\n",
            OBSTACLES, OBJECTS, BENCH_SPACE_LEVEL);
     printf("  %5s %7s %7s %8s %9s %10s %7s %8s %8s %8s %9s %8s\n", "fill", "slices", "again", "gluings", "mixtures", "components",
            "edges", "seconds", "slices", "gluings", "MB", "facts");
