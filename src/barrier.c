@@ -14,36 +14,44 @@
 #include "barrier.h"
 #include "grid.h"
 
-/* How a part moves. */
-struct cage_motion {
-    int64_t moved[3];
-    int64_t quarter; /* |moved|^2 / 4, rounded up: the most that interpolated weights sag below the smaller one */
-    int32_t grow;    /* radius in d minus radius in c */
+/* How a site moves. */
+struct cage_move {
+    int64_t by[3];
+    int64_t weight; /* the least on the way, less what interpolation takes; -1: it is a sentinel, or there is no such ball in d */
 };
 
 enum { NO_POINT = -1, UNKNOWN_HOME = -2 };
 
+static struct cage_move move_of(const struct cage_slice *c, const struct cage_slice *d, int32_t site)
+{
+    struct cage_move move = {{0, 0, 0}, -1};
+    if (site <= c->t.dim)
+        return move;
+    const struct cage_part *from = &c->part[c->t.ball[site]], *to = &d->part[c->t.ball[site]];
+    int64_t square = 0; /* |by| < 2 |y| + 2: < 2^58 */
+    for (int32_t i = 0; i < 3; i++) {
+        move.by[i] = (int64_t)from->at[i] - to->at[i];
+        square += move.by[i] * move.by[i];
+    }
+    int64_t here = c->t.site[site].r, there = here + to->change - from->change, least = here < there ? here : there;
+    if (least >= 0) /* interpolated weights sag by |by|^2 / 4 at most */
+        move.weight = least * least - (square + 3) / 4;
+    return move;
+}
+
 int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, struct cage_view *view)
 {
     struct cage_view made = {c, d, NULL, NULL, NULL, NULL, NULL, NULL, 0, CAGE_COVERED, false};
-    made.motion = cage_arena_take(arena, (size_t)c->parts, sizeof *made.motion);
+    made.move = cage_arena_take(arena, (size_t)c->t.sites, sizeof *made.move);
     made.reached = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.reached);
     made.stack = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.stack);
     made.solid = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.solid);
     made.home = cage_arena_take(arena, (size_t)d->regions, sizeof *made.home);
     made.off = cage_arena_take(arena, (size_t)d->regions, sizeof *made.off);
-    if (!made.motion || !made.reached || !made.stack || !made.solid || !made.home || !made.off)
+    if (!made.move || !made.reached || !made.stack || !made.solid || !made.home || !made.off)
         return CAGE_ERROR_MEMORY;
-    for (int32_t a = 0; a < c->parts; a++) {
-        struct cage_motion *motion = &made.motion[a];
-        int64_t square = 0; /* |moved| < 2 |y| + 2: < 2^58 */
-        for (int32_t i = 0; i < 3; i++) {
-            motion->moved[i] = (int64_t)c->part[a].at[i] - d->part[a].at[i];
-            square += motion->moved[i] * motion->moved[i];
-        }
-        motion->quarter = (square + 3) / 4;
-        motion->grow = d->part[a].change - c->part[a].change;
-    }
+    for (int32_t i = 0; i < c->t.sites; i++)
+        made.move[i] = move_of(c, d, i);
     for (int32_t s = 0; s < c->t.simplices; s++)
         made.reached[s] = 0;
     for (int32_t s = 0; s < c->t.simplices; s++)
@@ -56,26 +64,15 @@ int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, con
     return CAGE_OK;
 }
 
-/* Least weight of a site on its way, less what interpolation takes; -1: it is a sentinel, or there is no such ball in d. */
-static int64_t weight_of(const struct cage_view *view, int32_t site)
-{
-    const struct cage_triangulation *t = &view->c->t;
-    if (site <= t->dim)
-        return -1;
-    const struct cage_motion *m = &view->motion[t->ball[site]];
-    int64_t r = t->site[site].r, other = r + m->grow, least = r < other ? r : other;
-    return least < 0 ? -1 : least * least - m->quarter;
-}
-
 /* Greatest squared distance of two sites on their way: at one end of it. Differences < 2^29 in the plane, 2^24 in space. */
 static int64_t square_of(const struct cage_view *view, int32_t a, int32_t b)
 {
     const struct cage_triangulation *t = &view->c->t;
-    const struct cage_motion *am = &view->motion[t->ball[a]], *bm = &view->motion[t->ball[b]];
+    const struct cage_move *am = &view->move[a], *bm = &view->move[b];
     int64_t e[3], here = 0, there = 0;
     cage_difference(&t->site[a], &t->site[b], e);
     for (int32_t n = 0; n < 3; n++) {
-        int64_t f = e[n] + am->moved[n] - bm->moved[n];
+        int64_t f = e[n] + am->by[n] - bm->by[n];
         here += e[n] * e[n];
         there += f * f;
     }
@@ -91,7 +88,7 @@ static bool is_solid_facet(const struct cage_view *view, int32_t s, int32_t i)
     for (int32_t k = 0; k <= t->dim; k++)
         if (k != i) {
             v[count] = t->simplex[s].v[k];
-            weight[count] = weight_of(view, v[count]);
+            weight[count] = view->move[v[count]].weight;
             if (weight[count++] < 0)
                 return false;
         }
@@ -114,7 +111,7 @@ static bool is_solid(struct cage_view *view, int32_t s)
         return view->solid[s];
     }
     for (int32_t i = 0; i < 4; i++) {
-        weight[i] = weight_of(view, simplex->v[i]);
+        weight[i] = view->move[simplex->v[i]].weight;
         if (weight[i] < 0)
             return false;
         for (int32_t k = 0; k < i; k++)

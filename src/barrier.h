@@ -4,12 +4,12 @@
 
 #include "slice.h"
 
-struct cage_motion;
+struct cage_move;
 
 /* Two slices of the same side of one scene, seen from the first. */
 struct cage_view {
     const struct cage_slice *c, *d;
-    struct cage_motion *motion; /* of each part, from c to d */
+    struct cage_move *move;     /* of each site of c, to where it is in d */
     int32_t *reached;           /* for each simplex of c: the last spread that reached it */
     int32_t *stack;
     int8_t *solid;    /* for each simplex of c: see barrier.c; -1: not known */
