@@ -66,16 +66,6 @@ static int32_t first_level(const struct cage_proof *proof)
     return level;
 }
 
-/* What is left of the block is shared out: a quarter for facts, a quarter to hold slices, half to work in. */
-static void share_out(struct cage_proof *proof)
-{
-    size_t left = proof->arena.size - proof->arena.used, quarter = left / 4 / CAGE_ALIGN * CAGE_ALIGN;
-    unsigned char *at = proof->arena.base + proof->arena.used + quarter;
-    proof->arena.size = proof->arena.used + quarter;
-    cage_store_init(&proof->store, at, quarter);
-    cage_arena_init(&proof->scratch, at + quarter, left - 2 * quarter);
-}
-
 static uint64_t fixed_bytes(const cage_scene *scene, const cage_limits *limits)
 {
     uint64_t objects = (uint64_t)scene->object.inner_count + (uint64_t)scene->object.outer_count;
@@ -83,15 +73,38 @@ static uint64_t fixed_bytes(const cage_scene *scene, const cage_limits *limits)
            ((uint64_t)limits->max_cells + CAGE_CELL_ROOT) * sizeof(struct cage_leaf) + 16 * CAGE_ALIGN;
 }
 
+/* To work in: a mixture of two slices has 2 pairs balls, at most 4 triangles each while building; in space usually less than
+ * 9 tetrahedra. */
+static uint64_t work_bytes(const cage_scene *scene)
+{
+    uint64_t inner = (uint64_t)scene->object.inner_count * (uint64_t)scene->obstacles.inner_count;
+    uint64_t outer = (uint64_t)scene->object.outer_count * (uint64_t)scene->obstacles.outer_count;
+    return (scene->dim == 2 ? 600 : 1400) * (inner > outer ? inner : outer) + 32768;
+}
+
+/* What is left of the block is shared out: a quarter for facts; half to work in, or as much as that ever takes and an
+ * eighth; the rest to hold slices. */
+enum { FACTS_PART = 4, WORK_PART = 2, LEAST_WORK_PART = 8, WORK_TIMES = 4 };
+
+static void share_out(struct cage_proof *proof)
+{
+    size_t left = proof->arena.size - proof->arena.used, facts = left / FACTS_PART / CAGE_ALIGN * CAGE_ALIGN;
+    uint64_t work = WORK_TIMES * work_bytes(&proof->scene) + left / LEAST_WORK_PART;
+    size_t hold = left / WORK_PART - facts;
+    if (work < left / WORK_PART)
+        hold = left - facts - (size_t)work;
+    hold = hold / CAGE_ALIGN * CAGE_ALIGN;
+    unsigned char *at = proof->arena.base + proof->arena.used + facts;
+    proof->shared = left;
+    proof->arena.size = proof->arena.used + facts;
+    cage_store_init(&proof->store, at, hold);
+    cage_arena_init(&proof->scratch, at + hold, left - facts - hold);
+}
+
 /* Enough for one search. */
 static uint64_t size_of_one(const cage_scene *scene, const cage_limits *limits)
 {
-    uint64_t inner = (uint64_t)scene->object.inner_count * (uint64_t)scene->obstacles.inner_count;
-    uint64_t outer = (uint64_t)scene->object.outer_count * (uint64_t)scene->obstacles.outer_count,
-             pairs = inner > outer ? inner : outer;
-    /* A mixture of two slices: 2 pairs balls, at most 4 triangles each while building; in space usually less than 9
-     * tetrahedra. */
-    uint64_t work = (scene->dim == 2 ? 600 : 1400) * pairs + 32768, facts = 32768 + 64 * (uint64_t)limits->max_cells;
+    uint64_t work = work_bytes(scene), facts = 32768 + 64 * (uint64_t)limits->max_cells;
     return fixed_bytes(scene, limits) + 4 * (work / 2 > facts ? work / 2 : facts); /* < 2^42 */
 }
 
@@ -142,13 +155,15 @@ size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits)
 /* A block in which the allocation that failed would succeed; a later one of the same step may fail in it. */
 static uint64_t needed_by_one(const struct cage_proof *proof)
 {
-    size_t quarter = proof->store.size, most = 2 * quarter;
-    if (proof->scratch.needed > proof->scratch.size)
-        most = proof->scratch.needed / 2 + CAGE_ALIGN;
-    else if (proof->arena.needed > proof->arena.size)
-        most = quarter + (proof->arena.needed - proof->arena.size) + CAGE_ALIGN;
-    most = most < quarter + quarter / 2 ? quarter + quarter / 2 : most;
-    return proof->arena.size - quarter + 4 * (uint64_t)most + 16 * CAGE_ALIGN;
+    uint64_t shared = 0, least = proof->shared + proof->shared / 2;
+    if (proof->scratch.needed > proof->scratch.size) {
+        uint64_t needed = (uint64_t)proof->scratch.needed + CAGE_ALIGN, ever = WORK_TIMES * work_bytes(&proof->scene);
+        uint64_t beyond = needed > ever ? LEAST_WORK_PART * (needed - ever) : 0;
+        shared = beyond > WORK_PART * needed ? beyond : WORK_PART * needed;
+    } else if (proof->arena.needed > proof->arena.size) {
+        shared = proof->shared + FACTS_PART * ((uint64_t)(proof->arena.needed - proof->arena.size) + CAGE_ALIGN);
+    }
+    return proof->arena.size - proof->shared / FACTS_PART + (shared < least ? least : shared) + 16 * CAGE_ALIGN;
 }
 
 uint64_t cage_proof_needed(const struct cage_proof *proof)

@@ -54,7 +54,8 @@ struct cage_leaf {
     struct cage_rotations rotations;
     int32_t parent; /* -1: none */
     int32_t child;  /* the first of its children, 0: it is a leaf */
-    int32_t corridor;
+    int32_t corridor; /* the last one that it was in, */
+    int32_t beside;   /* or had a neighbour in */
     struct cage_facts facts[CAGE_SIDES];
 };
 

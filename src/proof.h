@@ -10,6 +10,7 @@ struct cage_reach {
     struct cage_node *start;
     struct cage_node *head, *tail;           /* reached, edges to be followed */
     struct cage_node *open_head, *open_tail; /* followed, but not glued all around */
+    int32_t glued;                           /* of the neighbours of the first open node, the last that it is glued with */
     int32_t number;                          /* of this search: node.seen */
 };
 
@@ -22,6 +23,7 @@ struct cage_proof {
     struct cage_arena arena;   /* what stays: this struct, the graph, facts, the path */
     struct cage_arena scratch; /* empty between steps */
     struct cage_store store;
+    size_t shared;             /* bytes that facts, store and scratch have together */
     struct cage_graph graph;
     struct cage_side side[CAGE_SIDES];
     struct cage_reach reach[CAGE_SIDES];

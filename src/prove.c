@@ -105,8 +105,11 @@ static int32_t step_inner(struct cage_proof *proof)
     }
     proof->corridor = ++proof->corridors;
     proof->outer_work = proof->result.slices[CAGE_OUTER] + proof->result.gluings[CAGE_OUTER];
-    for (const struct cage_node *node = proof->way; node; node = node->from)
+    for (const struct cage_node *node = proof->way; node; node = node->from) {
         proof->graph.cell[node->cell].corridor = proof->corridor;
+        for (int32_t next = -1; (next = cage_graph_neighbour(&proof->graph, node->cell, next)) >= 0;)
+            proof->graph.cell[next].beside = proof->corridor;
+    }
     proof->phase = OUTER;
     cage_search_anew(proof, CAGE_OUTER);
     return CAGE_OK;

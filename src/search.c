@@ -205,6 +205,7 @@ void cage_search_anew(struct cage_proof *proof, int32_t side)
         reach->head = reach->head->next;
     }
     reach->open_head = NULL;
+    reach->glued = -1;
     reach->number++;
     proof->result.reached[side] = 0;
     if (!reach->start)
@@ -312,16 +313,19 @@ int32_t cage_search(struct cage_proof *proof, int32_t side)
             return CAGE_CLOSED;
         struct cage_node *node = reach->open_head;
         int32_t scope = side == CAGE_OUTER && proof->corridor ? proof->corridor : -1;
-        int32_t other = node->settled == -1 || node->settled == scope ? -1 : cage_search_unglued(proof, side, node, -1);
+        bool settled = node->settled == -1 || node->settled == scope || (scope > 0 && proof->graph.cell[node->cell].beside != scope);
+        int32_t other = settled ? -1 : cage_search_unglued(proof, side, node, reach->glued);
         if (other < 0) {
             node->settled = node->settled == -1 ? -1 : scope;
             reach->open_head = node->next_open;
+            reach->glued = -1;
             continue;
         }
         const struct cage_slice *slice;
         if (proof->graph.cell[other].facts[side].nodes == 0)
             return cage_proof_slice(proof, side, other, &slice);
         int32_t error = glue(proof, side, node, other);
+        reach->glued = error == CAGE_OK ? other : reach->glued;
         follow_again(proof, side, node->cell);
         follow_again(proof, side, other);
         return error;
