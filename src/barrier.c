@@ -12,6 +12,7 @@
  * either has the other iff it is off R. R extends beyond the sentinels' simplex iff it holds a simplex with a sentinel (then
  * it holds all of these), and the outside of d always does. */
 #include "barrier.h"
+#include "box.h"
 #include "grid.h"
 
 /* How a site moves. */
@@ -20,7 +21,7 @@ struct cage_move {
     int64_t weight; /* the least on the way, less what interpolation takes; -1: it is a sentinel, or there is no such ball in d */
 };
 
-enum { NO_POINT = -1, UNKNOWN_HOME = -2 };
+enum { NO_POINT = -1, UNKNOWN_HOME = -2, SMALL = 32, LONG = 256 };
 
 static struct cage_move move_of(const struct cage_slice *c, const struct cage_slice *d, int32_t site)
 {
@@ -41,17 +42,20 @@ static struct cage_move move_of(const struct cage_slice *c, const struct cage_sl
 
 int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, struct cage_view *view)
 {
-    struct cage_view made = {c, d, NULL, NULL, NULL, NULL, NULL, NULL, 0, CAGE_COVERED, false};
+    struct cage_view made = {c, d, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0, 0, CAGE_COVERED, false};
     made.move = cage_arena_take(arena, (size_t)c->t.sites, sizeof *made.move);
     made.reached = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.reached);
-    made.stack = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.stack);
+    made.queue = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.queue);
+    made.used = cage_arena_take(arena, (size_t)c->t.sites, sizeof *made.used);
     made.solid = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.solid);
     made.home = cage_arena_take(arena, (size_t)d->regions, sizeof *made.home);
     made.off = cage_arena_take(arena, (size_t)d->regions, sizeof *made.off);
-    if (!made.move || !made.reached || !made.stack || !made.solid || !made.home || !made.off)
+    if (!made.move || !made.reached || !made.queue || !made.used || !made.solid || !made.home || !made.off)
         return CAGE_ERROR_MEMORY;
-    for (int32_t i = 0; i < c->t.sites; i++)
+    for (int32_t i = 0; i < c->t.sites; i++) {
         made.move[i] = move_of(c, d, i);
+        made.used[i] = 0;
+    }
     for (int32_t s = 0; s < c->t.simplices; s++)
         made.reached[s] = 0;
     for (int32_t s = 0; s < c->t.simplices; s++)
@@ -121,30 +125,62 @@ static bool is_solid(struct cage_view *view, int32_t s)
     return view->solid[s];
 }
 
+static void reach(struct cage_view *view, int32_t s)
+{
+    view->reached[s] = view->spreads;
+    view->queue[view->length++] = s;
+}
+
+/* Simplices of one label are joined by facets, so one will do; the outside may have but simplices with a sentinel. */
+static void reach_first(struct cage_view *view, int32_t k)
+{
+    const struct cage_triangulation *t = &view->c->t;
+    if (k != CAGE_OUTSIDE) {
+        reach(view, view->c->region[k].deep);
+        return;
+    }
+    for (int32_t s = 0; s < t->simplices; s++)
+        if (view->c->label[s] == k)
+            reach(view, s);
+}
+
+void cage_view_collect(struct cage_view *view, int32_t k)
+{
+    const struct cage_triangulation *t = &view->c->t;
+    view->spreads++;
+    view->from = CAGE_COVERED;
+    view->length = 0;
+    reach_first(view, k);
+    for (int32_t n = 0; n < view->length; n++)
+        for (int32_t i = 0; i <= t->dim; i++) {
+            int32_t twin = t->simplex[view->queue[n]].twin[i];
+            if (twin != CAGE_HULL && view->reached[twin >> 2] != view->spreads && view->c->label[twin >> 2] == k)
+                reach(view, twin >> 2);
+        }
+}
+
 /* Find R for component k. */
 static void spread(struct cage_view *view, int32_t k)
 {
     const struct cage_triangulation *t = &view->c->t;
-    int32_t depth = 0, number = ++view->spreads;
+    const int32_t *label = view->c->label;
+    view->spreads++;
     view->from = k;
     view->outer = false;
-    for (int32_t s = 0; s < t->simplices; s++)
-        if (view->c->label[s] == k) {
-            view->reached[s] = number;
-            view->stack[depth++] = s;
-        }
-    while (depth > 0) {
-        int32_t s = view->stack[--depth];
-        view->outer = view->outer || cage_simplex_outer(t, s);
+    view->length = 0;
+    reach_first(view, k);
+    bool small = k != CAGE_OUTSIDE && view->c->region[k].size <= SMALL;
+    for (int32_t n = 0; n < view->length; n++) {
+        int32_t s = view->queue[n];
+        view->outer = view->outer || cage_simplex_outer(t, s) || (small && n > LONG);
         if (view->outer && k != CAGE_OUTSIDE)
-            return; /* little would be told by what is left */
+            return; /* little would be told by what is left, and for a small component a mixture takes less */
         for (int32_t i = 0; i <= t->dim; i++) {
-            int32_t twin = t->simplex[s].twin[i];
-            if (twin == CAGE_HULL || view->reached[twin >> 2] == number || is_solid(view, twin >> 2) ||
-                is_solid_facet(view, s, i))
+            int32_t twin = t->simplex[s].twin[i], next = twin >> 2;
+            if (twin == CAGE_HULL || view->reached[next] == view->spreads)
                 continue;
-            view->reached[twin >> 2] = number;
-            view->stack[depth++] = twin >> 2;
+            if (label[next] == k || (!is_solid(view, next) && !is_solid_facet(view, s, i)))
+                reach(view, next);
         }
     }
 }
@@ -153,9 +189,9 @@ static void spread(struct cage_view *view, int32_t k)
 static bool may_meet(const struct cage_view *view, const int32_t y[3])
 {
     const struct cage_triangulation *t = &view->c->t;
-    for (int32_t s = 0; s < t->simplices; s++)
-        for (int32_t i = 0; view->reached[s] == view->spreads && i <= t->dim; i++) {
-            int32_t twin = t->simplex[s].twin[i];
+    for (int32_t r = 0; r < view->length; r++)
+        for (int32_t i = 0; i <= t->dim; i++) {
+            int32_t twin = t->simplex[view->queue[r]].twin[i];
             if (twin == CAGE_HULL || view->reached[twin >> 2] == view->spreads)
                 continue;
             for (int32_t n = 0; n <= t->dim; n++) /* sentinels never do */
@@ -172,11 +208,38 @@ static bool is_off(struct cage_view *view, int32_t l)
     return view->off[l];
 }
 
+/* Is a small component of d, whose point is in the simplex, within one of that one's balls? */
+static bool is_held(const struct cage_view *view, int32_t l, int32_t simplex)
+{
+    const struct cage_slice *d = view->d;
+    struct cage_box box;
+    int32_t part[SMALL], parts = 1;
+    if (l == CAGE_OUTSIDE || d->region[l].size > SMALL)
+        return false;
+    part[0] = d->region[l].deep;
+    for (int32_t n = 0; n < parts; n++)
+        for (int32_t i = 0; i <= d->t.dim; i++) {
+            int32_t next = d->t.simplex[part[n]].twin[i] >> 2, known = 0; /* no hull facet: it is bounded */
+            while (known < parts && part[known] != next)
+                known++;
+            if (known == parts && d->label[next] == l)
+                part[parts++] = next; /* parts <= size */
+        }
+    if (!cage_box_make(d, part, parts, &box))
+        return false;
+    for (int32_t i = 0; i <= view->c->t.dim; i++) {
+        int32_t v = view->c->t.simplex[simplex].v[i];
+        if (v > view->c->t.dim && cage_box_is_held(&box, &view->c->t.site[v]))
+            return true;
+    }
+    return false;
+}
+
 static bool is_apart(struct cage_view *view, int32_t k, int32_t l)
 {
     if (view->from != k)
         spread(view, k);
-    if (view->outer && (k != CAGE_OUTSIDE || l == CAGE_OUTSIDE))
+    if (view->outer && k != CAGE_OUTSIDE)
         return false;
     if (l == CAGE_OUTSIDE)
         return true;
@@ -190,9 +253,10 @@ int32_t cage_view_decide(struct cage_view *view, int32_t k, int32_t l, int32_t x
     const int32_t *point = NULL;
     if (view->home[l] == UNKNOWN_HOME)
         view->home[l] = cage_delaunay_locate(&view->c->t, b->point, 0);
-    if (is_apart(view, k, l))
+    bool both_outside = k == CAGE_OUTSIDE && l == CAGE_OUTSIDE; /* these touch */
+    if (!both_outside && ((view->home[l] >= 0 && is_held(view, l, view->home[l])) || is_apart(view, k, l)))
         return CAGE_APART;
-    if (k == CAGE_OUTSIDE && l == CAGE_OUTSIDE)
+    if (both_outside)
         point = a->point[1] > b->point[1] ? a->point : b->point; /* above both bounding boxes */
     else if (view->home[l] >= 0 && view->c->label[view->home[l]] == k && is_off(view, l))
         point = b->point;

@@ -9,18 +9,23 @@ struct cage_move;
 /* Two slices of the same side of one scene, seen from the first. */
 struct cage_view {
     const struct cage_slice *c, *d;
-    struct cage_move *move;     /* of each site of c, to where it is in d */
-    int32_t *reached;           /* for each simplex of c: the last spread that reached it */
-    int32_t *stack;
-    int8_t *solid;    /* for each simplex of c: see barrier.c; -1: not known */
-    int32_t *home;    /* for each component of d: the simplex of c that holds its point; -1: it has none, -2: not looked for */
-    int8_t *off;      /* for each component of d: is its point off all balls of c? -1: not known */
-    int32_t spreads;  /* number of the last spread */
-    int32_t from;     /* the component it was of */
-    bool outer;       /* whether it reached a simplex with a sentinel; unless that component has some, it went no further */
+    struct cage_move *move; /* of each site of c, to where it is in d */
+    int32_t *used;          /* for each site of c: the last spread in which it was used, by whoever collects them */
+    int32_t *reached;       /* for each simplex of c: the last spread that reached it */
+    int32_t *queue;         /* those that it reached, in their order */
+    int8_t *solid;          /* for each simplex of c: see barrier.c; -1: not known */
+    int32_t *home; /* for each component of d: the simplex of c that holds its point; -1: it has none, -2: not looked for */
+    int8_t *off;   /* for each component of d: is its point off all balls of c? -1: not known */
+    int32_t length;  /* of the queue */
+    int32_t spreads; /* number of the last spread */
+    int32_t from;    /* the component it was of */
+    bool outer;      /* whether it reached a simplex with a sentinel; unless that component has some, it went no further */
 };
 
 int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, struct cage_view *view);
+
+/* Put the simplices of component k in the queue; a spread of its own. */
+void cage_view_collect(struct cage_view *view, int32_t k);
 
 enum { CAGE_UNDECIDED = 0, CAGE_APART = 1, CAGE_TOUCHING = 2 };
 

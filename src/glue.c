@@ -1,14 +1,11 @@
 /* glue: which components of neighbouring slices share a point.
  *
- * Cheap proofs (barrier.h) decide nearly every pair of components. What they leave undecided of a component K of c is settled
- * exactly by a mixture: the balls of d, and those of c that are vertices of K's simplices. These are all balls that
- * meet the border of K (from a point of K near a ball, in its power cell, a free way leads to a vertex of that cell, the
- * orthocentre of a free simplex), so a component of the mixture lies in K or off it. One that lies in K and in a component L of
- * d is all of L, or a ball of c meets its border, and it has a new simplex. So K and L touch iff the witness of
- * L, or the orthocentre of some new free simplex, is in both: it is in K iff it is off all balls of c and in a simplex
- * labelled K, and likewise in L. */
+ * Cheap proofs (barrier.h) decide nearly every pair of components. What they leave undecided of a component K of c is
+ * settled exactly by a mixture (mixture.h): K and L touch iff the witness of L, or the orthocentre of some new free simplex,
+ * is in both. It is in K iff it is off all balls of c and in a simplex labelled K; then it is off all balls of d, and in L
+ * iff in a simplex labelled L. */
 #include "glue.h"
-#include "barrier.h"
+#include "mixture.h"
 
 #include <string.h>
 
@@ -45,25 +42,6 @@ static void add_touch(struct group *group, int32_t side, int32_t k, int32_t l, c
 }
 
 /* ---- a mixture -------------------------------------------------------------------------------------- */
-
-/* The vertices of simplices labelled k, in their order; null: no memory. */
-static const struct cage_site **vertices_of(struct cage_arena *arena, const struct cage_slice *c, int32_t k, int32_t *count)
-{
-    const struct cage_triangulation *t = &c->t;
-    const struct cage_site **vertex = cage_arena_take(arena, (size_t)t->sites, sizeof *vertex);
-    uint8_t *used = cage_arena_take(arena, (size_t)t->sites, sizeof *used);
-    *count = 0;
-    if (!vertex || !used)
-        return NULL;
-    memset(used, 0, (size_t)t->sites);
-    for (int32_t s = 0; s < t->simplices; s++)
-        for (int32_t i = 0; c->label[s] == k && i <= t->dim; i++)
-            used[t->simplex[s].v[i]] = 1;
-    for (int32_t i = t->dim + 1; i < t->sites; i++)
-        if (used[i])
-            vertex[(*count)++] = &t->site[i];
-    return vertex;
-}
 
 static bool off_all(const struct cage_slice *c, const struct cage_centre *centre)
 {
@@ -103,7 +81,7 @@ static void add_witness(struct group *group, int32_t side, int32_t k, const stru
         return;
     int32_t l = label_at(d, &centre, &hint[1]);
     if (l == CAGE_COVERED || (k == CAGE_OUTSIDE && l == CAGE_OUTSIDE) || group->seen[1 - side][l] == 2 ||
-        has_touch(group, side, k, l) || !off_all(c, &centre) || !off_all(d, &centre))
+        has_touch(group, side, k, l) || !off_all(c, &centre))
         return;
     const int32_t base[3] = {centre.base->x, centre.base->y, centre.base->z};
     int32_t x[3];
@@ -112,26 +90,18 @@ static void add_witness(struct group *group, int32_t side, int32_t k, const stru
     add_touch(group, side, k, l, x);
 }
 
-static bool is_new(const struct cage_triangulation *t, int32_t s, int32_t sites)
-{
-    bool fresh = false;
-    for (int32_t i = 0; i <= t->dim; i++)
-        fresh = fresh || t->simplex[s].v[i] >= sites;
-    return fresh;
-}
-
 enum { REST = 0, CANDIDATE = 1 };
 
 /* Try one of each set of new free simplices that are joined by facets which are no walls. */
-static int32_t add_new_parts(struct group *group, int32_t side, int32_t k, const struct cage_triangulation *t, int32_t hint[2])
+static int32_t add_new_parts(struct group *group, int32_t side, int32_t k, const struct cage_mixture *m, int32_t hint[2])
 {
-    int32_t sites = group->slice[1 - side]->t.sites;
+    const struct cage_triangulation *t = &m->t;
     uint8_t *kind = cage_arena_take(group->arena, (size_t)t->simplices, sizeof *kind);
     int32_t *stack = cage_arena_take(group->arena, (size_t)t->simplices, sizeof *stack);
     if (!kind || !stack)
         return CAGE_ERROR_MEMORY;
     for (int32_t s = 0; s < t->simplices; s++)
-        kind[s] = is_new(t, s, sites) && !cage_simplex_outer(t, s) && cage_component_free(t, s) ? CANDIDATE : REST;
+        kind[s] = cage_mixture_is_new(m, s) && !cage_simplex_outer(t, s) && cage_component_free(t, s) ? CANDIDATE : REST;
     for (int32_t first = 0; first < t->simplices; first++) {
         int32_t depth = 0;
         if (kind[first] == REST)
@@ -158,15 +128,14 @@ static int32_t add_by_mixture(struct group *group, int32_t side, int32_t k)
 {
     const struct cage_slice *c = group->slice[side], *d = group->slice[1 - side];
     size_t mark = group->arena->used;
-    int32_t count, hint[2] = {0, 0};
-    const struct cage_site **vertex = vertices_of(group->arena, c, k, &count);
-    struct cage_triangulation t;
-    int32_t error = vertex ? cage_delaunay_extend(group->arena, &d->t, vertex, count, &t) : CAGE_ERROR_MEMORY;
-    for (int32_t l = 0; error == CAGE_OK && l < d->regions; l++)
-        if (d->region[l].deep >= 0)
+    int32_t hint[2] = {0, 0};
+    struct cage_mixture m;
+    int32_t error = cage_mixture_make(group->arena, &group->view[side], k, &m);
+    for (int32_t l = 0; error == CAGE_OK && !m.apart && l < d->regions; l++)
+        if (d->region[l].deep >= 0 && cage_mixture_may_hold(&m, &d->region[l]))
             add_witness(group, side, k, &d->t, d->region[l].deep, hint);
-    if (error == CAGE_OK)
-        error = add_new_parts(group, side, k, &t, hint);
+    if (error == CAGE_OK && !m.apart)
+        error = add_new_parts(group, side, k, &m, hint);
     if (error == CAGE_OK && k == CAGE_OUTSIDE && group->seen[1 - side][CAGE_OUTSIDE] != 2 &&
         !has_touch(group, side, k, CAGE_OUTSIDE)) {
         const int32_t *a = c->region[CAGE_OUTSIDE].point, *b = d->region[CAGE_OUTSIDE].point;
@@ -178,35 +147,86 @@ static int32_t add_by_mixture(struct group *group, int32_t side, int32_t k)
 
 /* ---- all pairs of a group --------------------------------------------------------------------------- */
 
-/* Add all touching pairs of component k that can be decided without a mixture; false if not all can. */
-static bool add_by_proof(struct group *group, int32_t side, int32_t k)
+/* Does component l of the other slice touch k? Asked from there: if so it is a member, all its pairs decided; if not, what
+ * else it touches does not matter. */
+static int32_t ask_other(struct group *group, int32_t side, int32_t k, int32_t l)
 {
-    for (int32_t l = 0; l < group->slice[1 - side]->regions; l++) {
-        int32_t x[3];
-        if (group->seen[1 - side][l] == 2)
-            continue; /* decided from there */
-        int32_t verdict = cage_view_decide(&group->view[side], k, l, x);
-        if (verdict == CAGE_UNDECIDED)
-            return false;
+    int32_t count = group->count, members = group->members;
+    bool member = group->seen[1 - side][l];
+    int32_t error = add_by_mixture(group, 1 - side, l);
+    if (group->count > group->room || member || has_touch(group, side, k, l)) {
+        add_member(group, 1 - side, l);
+        group->seen[1 - side][l] = 2;
+        return error;
+    }
+    while (group->members > members) {
+        int32_t last = group->member[--group->members];
+        group->seen[last < 0][last < 0 ? -1 - last : last] = 0;
+    }
+    group->count = count;
+    return error;
+}
+
+/* Add all touching pairs of component k: by proofs, what these leave open from the smaller one's side. */
+static int32_t decide(struct group *group, int32_t side, int32_t k, int32_t *mixed)
+{
+    const struct cage_slice *c = group->slice[side], *d = group->slice[1 - side];
+    size_t mark = group->arena->used;
+    int32_t *open = cage_arena_take(group->arena, (size_t)d->regions, sizeof *open), opens = 0, error = CAGE_OK;
+    bool smallest = false;
+    if (!open)
+        return CAGE_ERROR_MEMORY;
+    for (int32_t l = 0; l < d->regions && !smallest; l++) {
+        int32_t x[3], verdict = CAGE_APART;
+        if (group->seen[1 - side][l] != 2) /* else decided from there */
+            verdict = cage_view_decide(&group->view[side], k, l, x);
         if (verdict == CAGE_TOUCHING)
             add_touch(group, side, k, l, x);
+        if (verdict != CAGE_UNDECIDED)
+            continue;
+        *mixed = 1; /* pairs that were proved stay: their points are exact */
+        open[opens++] = l;
+        smallest = k != CAGE_OUTSIDE && (l == CAGE_OUTSIDE || c->region[k].size <= d->region[l].size);
     }
-    return true;
+    smallest = smallest || (opens > 0 && open[0] == CAGE_OUTSIDE);
+    if (smallest)
+        error = add_by_mixture(group, side, k);
+    for (int32_t i = 0; i < opens && !smallest && error == CAGE_OK; i++)
+        if (group->seen[1 - side][open[i]] != 2)
+            error = ask_other(group, side, k, open[i]);
+    cage_arena_release(group->arena, mark);
+    return error;
 }
 
 static int32_t glue_group(struct group *group, int32_t *mixed)
 {
     for (int32_t n = 0; n < group->members; n++) {
         int32_t side = group->member[n] < 0, k = side ? -1 - group->member[n] : group->member[n];
-        if (!add_by_proof(group, side, k)) {
-            *mixed = 1; /* pairs that were proved stay: their points are exact */
-            int32_t error = add_by_mixture(group, side, k);
-            if (error != CAGE_OK)
-                return error;
-        }
+        if (group->seen[side][k] == 2)
+            continue;
+        int32_t error = decide(group, side, k, mixed);
+        if (error != CAGE_OK)
+            return error;
         group->seen[side][k] = 2;
     }
     return CAGE_OK;
+}
+
+/* All components are members. Small ones come first: what is decided with them takes least; the outsides last. */
+static void add_all(struct group *group)
+{
+    for (int32_t large = 0; large < 2; large++)
+        for (int32_t side = 0; side < 2; side++) {
+            const struct cage_slice *slice = group->slice[side];
+            int64_t sum = 0;
+            for (int32_t k = 0; k < slice->regions; k++)
+                sum += slice->region[k].size;
+            for (int32_t k = 0; k < slice->regions; k++)
+                if (k != CAGE_OUTSIDE && large == (slice->region[k].size > sum / slice->regions))
+                    add_member(group, side, k);
+        }
+    add_member(group, 0, CAGE_OUTSIDE);
+    add_member(group, 1, CAGE_OUTSIDE);
 }
 
 static int32_t make_group(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, int32_t seed,
@@ -228,9 +248,10 @@ static int32_t make_group(struct cage_arena *arena, const struct cage_slice *c, 
             return CAGE_ERROR_MEMORY;
         memset(group->seen[side], 0, (size_t)slice->regions);
     }
-    for (int32_t k = 0; k < c->regions; k++)
-        if (seed == k || seed == CAGE_ALL)
-            add_member(group, 0, k);
+    if (seed == CAGE_ALL)
+        add_all(group);
+    else
+        add_member(group, 0, seed);
     return CAGE_OK;
 }
 

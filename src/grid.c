@@ -1,5 +1,6 @@
 /* grid: the only file that rounds: rotations, centres, radii inward or outward. */
 #include "grid.h"
+#include "cage.h"
 
 enum { MATRIX_BITS = 62, TURN_BITS = 31 };
 
@@ -117,6 +118,19 @@ int32_t cage_displacement_within(const struct cage_corners *corners, const int32
     int64_t arm = (int64_t)cage_u128_root(most) + 1, reach = cage_length(y);
     cage_i128 moved = cage_u128_divide(cage_i128_mul(2 * arm, reach), cage_i128_of(root), &rest);
     return (int32_t)cage_i128_low(moved) + 2;
+}
+
+bool cage_centre_point(int32_t dim, const struct cage_centre *centre, int32_t at[3])
+{
+    const int32_t base[3] = {centre->base->x, centre->base->y, centre->base->z};
+    int32_t reach = dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
+    for (int32_t k = 0; k < 3; k++) {
+        int64_t to = base[k] + cage_i128_nearest(centre->offset[k], centre->denominator, (int64_t)1 << 40);
+        if (to < -reach || to > reach)
+            return false;
+        at[k] = (int32_t)to;
+    }
+    return true;
 }
 
 int32_t cage_length(const int32_t v[3])

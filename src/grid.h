@@ -2,7 +2,7 @@
 #ifndef CAGE_GRID_H
 #define CAGE_GRID_H
 
-#include "wide.h"
+#include "predicate.h"
 
 /* A rotation matrix in units of 2^-62, each entry to nearest. */
 struct cage_rotation {
@@ -38,6 +38,9 @@ void cage_corners_of(const int32_t q[4], int32_t corner[8][4], struct cage_corne
  * convex, and the rotation at u moves y by 2 |u_perp| |y| / sqrt(1 + |u|^2).) |y| <= 2^21. At most cage_displacement
  * of the cell's turn, plus 2. */
 int32_t cage_displacement_within(const struct cage_corners *corners, const int32_t y[3]);
+
+/* The grid point nearest to an orthocentre, off by at most 1/2 on each axis; false: it is beyond CAGE_REACH. */
+bool cage_centre_point(int32_t dim, const struct cage_centre *centre, int32_t at[3]);
 
 /* |v| rounded up, entries at most 2^29. */
 int32_t cage_length(const int32_t v[3]);

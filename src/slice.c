@@ -80,21 +80,15 @@ int32_t cage_slice_locate(const struct cage_slice *slice, const int32_t p[3])
 static void find_point(const struct cage_slice *slice, int32_t component)
 {
     struct cage_region *region = &slice->region[component];
-    int32_t dim = slice->t.dim, reach = dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
     region->known = 0;
     if (region->deep < 0)
         return;
     const struct cage_site *v[4];
     struct cage_centre centre;
     cage_simplex_sites(&slice->t, region->deep, v);
-    cage_orthocentre(dim, v, &centre);
-    const int32_t base[3] = {centre.base->x, centre.base->y, centre.base->z};
-    for (int32_t k = 0; k < 3; k++) {
-        int64_t at = base[k] + cage_i128_nearest(centre.offset[k], centre.denominator, (int64_t)1 << 40);
-        if (at < -reach || at > reach)
-            return;
-        region->point[k] = (int32_t)at;
-    }
+    cage_orthocentre(slice->t.dim, v, &centre);
+    if (!cage_centre_point(slice->t.dim, &centre, region->point))
+        return;
     int32_t s = cage_delaunay_locate(&slice->t, region->point, region->deep);
     region->known = slice->label[s] == component && cage_slice_clear(slice, region->point);
 }
@@ -190,10 +184,14 @@ static int32_t make(struct cage_arena *arena, const struct cage_side *side, cons
         return CAGE_ERROR_MEMORY;
     for (int32_t k = 0; k < components.count; k++) {
         out->region[k].deep = components.deep[k];
+        out->region[k].size = 0;
         if (k != CAGE_OUTSIDE)
             find_point(out, k);
     }
     find_outside_point(out);
+    for (int32_t s = 0; s < out->t.simplices; s++)
+        if (out->label[s] != CAGE_COVERED)
+            out->region[out->label[s]].size++;
     size_t size[6];
     array_sizes(out, size);
     out->bytes = size[0] + size[1] + size[2] + size[3] + size[4] + size[5];

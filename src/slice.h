@@ -19,10 +19,11 @@ struct cage_part {
     int32_t change;       /* the displacement and the slack, inward or outward */
 };
 
-/* A component: `deep` is one of its simplices (-1: it has none without a sentinel), and if `known`, `point` is a grid
- * point in it, off every closed ball. The outside has one always. */
+/* A component: `deep` is one of its simplices (-1: it has none without a sentinel), `size` their number, and if `known`,
+ * `point` is a grid point in it, off every closed ball. The outside has one always. */
 struct cage_region {
     int32_t deep;
+    int32_t size;
     int32_t known;
     int32_t point[3];
 };
