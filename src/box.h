@@ -9,7 +9,8 @@ struct cage_box {
     int64_t low[3], high[3];
 };
 
-/* A box that holds the component whose simplices these are (all of them, none with a sentinel); false: there is none to be had. */
+/* A box that holds the component whose simplices these are (all of them, none with a sentinel); false: there is none
+ * to be had. */
 bool cage_box_make(const struct cage_slice *slice, const int32_t *simplex, int32_t simplices, struct cage_box *box);
 
 /* Does the closed ball meet it (or nearly)? Does it hold all of it? */

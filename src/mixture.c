@@ -9,6 +9,9 @@
 
 enum { TOO_MANY = -1, HELD = -2 };
 
+/* To insert one ball takes about as long as to copy the simplices of so many. */
+enum { FEW_2D = 16, FEW_3D = 32 };
+
 /* The vertices of the simplices collected, each once; null: no memory. */
 static const struct cage_site **vertices_of(struct cage_arena *arena, struct cage_view *view, int32_t *count)
 {
@@ -54,8 +57,8 @@ int32_t cage_mixture_make(struct cage_arena *arena, struct cage_view *view, int3
     int32_t count, near = TOO_MANY;
     cage_view_collect(view, k);
     const struct cage_site **vertex = vertices_of(arena, view, &count);
-    int32_t most = d->sites / 2 - count;
-    cage_ball *ball = cage_arena_take(arena, (size_t)(most > 0 ? most + count : 0), sizeof *ball);
+    int32_t most = d->sites / (d->dim == 2 ? FEW_2D : FEW_3D);
+    cage_ball *ball = cage_arena_take(arena, (size_t)most + (size_t)count, sizeof *ball);
     if (!vertex || !ball)
         return CAGE_ERROR_MEMORY;
     m->boxed = k != CAGE_OUTSIDE && cage_box_make(view->c, view->queue, view->length, &m->box);

@@ -8,9 +8,9 @@
 /* For component K of c: the balls of d and those of c that are vertices of K's simplices. */
 struct cage_mixture {
     struct cage_triangulation t;
-    bool apart;              /* a ball of d holds all of K: there is no triangulation, and nothing to be found */
-    bool local;              /* only those balls of d that may meet K: t.ball[site] < old; else the sites of d are t's first, < old */
-    bool boxed;              /* K lies in the box */
+    bool apart; /* a ball of d holds all of K: there is no triangulation, and nothing to be found */
+    bool local; /* only those balls of d that may meet K: t.ball[site] < old; else the sites of d are t's first, < old */
+    bool boxed; /* K lies in the box */
     int32_t old;
     struct cage_box box;
 };

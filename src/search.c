@@ -313,7 +313,8 @@ int32_t cage_search(struct cage_proof *proof, int32_t side)
             return CAGE_CLOSED;
         struct cage_node *node = reach->open_head;
         int32_t scope = side == CAGE_OUTER && proof->corridor ? proof->corridor : -1;
-        bool settled = node->settled == -1 || node->settled == scope || (scope > 0 && proof->graph.cell[node->cell].beside != scope);
+        bool beside = scope < 0 || proof->graph.cell[node->cell].beside == scope;
+        bool settled = node->settled == -1 || node->settled == scope || !beside;
         int32_t other = settled ? -1 : cage_search_unglued(proof, side, node, reach->glued);
         if (other < 0) {
             node->settled = node->settled == -1 ? -1 : scope;
