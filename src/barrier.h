@@ -19,7 +19,7 @@ struct cage_view {
     int32_t length;  /* of the queue */
     int32_t spreads; /* number of the last spread */
     int32_t from;    /* the component it was of */
-    bool outer;      /* whether it reached a simplex with a sentinel; unless that component has some, it went no further */
+    bool outer;      /* whether it reached a simplex with a sentinel, or (of a small component) very many, and then went no further */
 };
 
 int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, struct cage_view *view);

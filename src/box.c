@@ -6,9 +6,9 @@
 #include "box.h"
 #include "grid.h"
 
-static void widen(struct cage_box *box, const int32_t at[3], int64_t by)
+static void widen(struct cage_box *box, int32_t dim, const int32_t at[3], int64_t by)
 {
-    for (int32_t k = 0; k < 3; k++) {
+    for (int32_t k = 0; k < dim; k++) {
         box->low[k] = at[k] - by < box->low[k] ? at[k] - by : box->low[k];
         box->high[k] = at[k] + by > box->high[k] ? at[k] + by : box->high[k];
     }
@@ -18,8 +18,8 @@ bool cage_box_make(const struct cage_slice *slice, const int32_t *simplex, int32
 {
     const struct cage_triangulation *t = &slice->t;
     for (int32_t k = 0; k < 3; k++) {
-        box->low[k] = INT64_MAX;
-        box->high[k] = INT64_MIN;
+        box->low[k] = k < t->dim ? INT64_MAX : 0; /* the plane is flat */
+        box->high[k] = k < t->dim ? INT64_MIN : 0;
     }
     for (int32_t i = 0; i < simplices; i++) {
         const struct cage_site *v[4];
@@ -31,7 +31,7 @@ bool cage_box_make(const struct cage_slice *slice, const int32_t *simplex, int32
             return false;
         const int32_t from[3] = {at[0] - v[0]->x, at[1] - v[0]->y, at[2] - v[0]->z}; /* < 2^29 */
         int64_t away = (int64_t)cage_length(from) + 1, square = away * away - (int64_t)v[0]->r * v[0]->r; /* at: < 1 off */
-        widen(box, at, square > 0 ? (int64_t)cage_u128_root(cage_i128_of(square)) + 2 : 2);
+        widen(box, t->dim, at, square > 0 ? (int64_t)cage_u128_root(cage_i128_of(square)) + 2 : 2);
     }
     return simplices > 0;
 }
@@ -48,7 +48,7 @@ bool cage_box_meets(const struct cage_box *box, const struct cage_site *ball)
 bool cage_box_is_held(const struct cage_box *box, const struct cage_site *ball)
 {
     const int64_t at[3] = {ball->x, ball->y, ball->z};
-    int64_t square = 0; /* differences < 2^30 + 2^28 in the plane, where the third is 0 or 2, and < 2^27 in space */
+    int64_t square = 0; /* differences < 2^30 + 2^28 in the plane, where the third is 0, and < 2^27 in space */
     for (int32_t k = 0; k < 3; k++) {
         int64_t a = at[k] - box->low[k], b = box->high[k] - at[k], far = a > b ? a : b;
         square += far * far;

@@ -273,6 +273,39 @@ void pockets_make(int32_t dim, uint64_t seed, struct pockets *out)
     fit_radii(&m);
 }
 
+void pockets_vanish(int32_t dim, uint64_t seed, struct pockets *out)
+{
+    static const int64_t around[2][8][3] = {
+        {{1000, 0, 0}, {-500, 866, 0}, {-500, -866, 0}, {900, 900, 0}, {1800, 0, 0}, {-1500, 1500, 0}, {0, -1800, 0}, {0, 1800, 0}},
+        {{577, 577, 577}, {577, -577, -577}, {-577, 577, -577}, {-577, -577, 577},
+         {1500, 0, 0}, {0, 1500, 0}, {0, 0, -1500}, {-1500, 0, 0}}};
+    struct maker m = {2 * seed + (uint64_t)dim - 2, dim, 1, 0, out};
+    memset(out, 0, sizeof *out);
+    out->dim = dim;
+    out->sign = -1;
+    int64_t radius = draw(&m, 6, 60), far_radius = draw(&m, 0, 8), away = draw(&m, radius / 2, radius + far_radius);
+    int64_t far = draw(&m, 0, 1) ? draw(&m, 4, 400) * radius / 10 : draw(&m, 1, 30) * radius, balls = draw(&m, dim + 1, 2 * dim + 2);
+    for (int64_t i = 0; i < balls; i++) {
+        const int64_t *to = around[dim - 2][i];
+        obstacle(&m, to[0] * away / 1000 + draw(&m, -3, 3), to[1] * away / 1000 + draw(&m, -3, 3),
+                 to[2] * away / 1000 + draw(&m, -3, 3), radius + draw(&m, -1, 1));
+    }
+    const cage_ball near = {0, 0, 0, (int32_t)draw(&m, 0, 4)};
+    out->object[out->objects++] = near;
+    for (int64_t i = draw(&m, 1, 2); i > 0; i--) {
+        const cage_ball made = {(int32_t)(i == 1 ? far : -far), 0, 0, (int32_t)far_radius};
+        const cage_ball turned = {0, made.x, 0, made.r};
+        out->object[out->objects++] = draw(&m, 0, 2) ? made : turned;
+    }
+    int64_t gone = (radius + far_radius + 4) * ((int64_t)1 << 31) / far + draw(&m, 0, 1000000), most = (int64_t)1 << 32;
+    int32_t wide = (int32_t)draw(&m, 0, 1), turn = draw(&m, 0, 1) ? 0 : (int32_t)draw(&m, -1000, 1000);
+    out->at[wide].turn = gone < most ? gone : most;
+    for (int32_t i = 0; i < 2; i++) {
+        out->at[i].q[0] = 1024;
+        out->at[i].q[3] = turn;
+    }
+}
+
 void pockets_side(struct cage_arena *arena, const struct pockets *p, struct cage_side *side)
 {
     const cage_scene scene = {

@@ -21,6 +21,10 @@ struct pockets {
 /* A function of the arguments alone; passes cage_scene_check. */
 void pockets_make(int32_t dim, uint64_t seed, struct pockets *out);
 
+/* The same; a few balls around a component thinner than the grid, and in one of the slices most of them are gone, as the
+ * object's far balls shrink to nothing. */
+void pockets_vanish(int32_t dim, uint64_t seed, struct pockets *out);
+
 /* The side that it is made for. Points into p. */
 void pockets_side(struct cage_arena *arena, const struct pockets *p, struct cage_side *side);
 

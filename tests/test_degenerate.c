@@ -134,6 +134,34 @@ START_TEST(caged_in_contact)
 }
 END_TEST
 
+/* Over half a turn the object's far balls shrink to nothing, and what is left shuts in a point at most thinner than the grid. The
+ * same scene, finer, has a way out. */
+START_TEST(balls_that_vanish)
+{
+    unsigned char *memory = test_alloc(PLENTY);
+    for (int32_t scale = 1; scale <= 256; scale *= 256) {
+        cage_ball y[4] = {{0, 0, 0, 1}, {891, 0, 0, 8}, {-891, 0, 0, 8}, {0, 891, 0, 8}};
+        cage_ball x[5] = {{883, 51, 0, 31}, {137, 931, 0, 124}, {952, -48, 0, 78}, {-970, -23, 0, 72}, {-797, -30, 0, 73}};
+        const cage_pose start = {{-5 * scale, 9 * scale, 0}, {1, 0, 0, 0}};
+        for (int32_t i = 0; i < 9; i++) {
+            cage_ball *ball = i < 4 ? &y[i] : &x[i - 4];
+            const cage_ball scaled = {ball->x * scale, ball->y * scale, 0, ball->r * scale};
+            *ball = scaled;
+        }
+        const cage_scene s = scene_of(y, 4, x, 5);
+        cage_limits limits;
+        cage_proof *proof;
+        cage_limits_default(&limits, 2);
+        limits.start_level = 0;
+        ck_assert_int_eq(cage_prove_begin(&proof, &s, &start, NULL, &limits, memory, PLENTY), CAGE_OK);
+        ck_assert_int_eq(cage_prove_run(proof, INT64_MAX), 1);
+        int32_t verdict = cage_prove_result(proof)->verdict;
+        ck_assert_msg(scale == 1 ? verdict != CAGE_CAGED : verdict == CAGE_FREE, "%s", cage_verdict_text(verdict));
+    }
+    free(memory);
+}
+END_TEST
+
 START_TEST(coincident_balls_and_points)
 {
     cage_ball y[6], x[24];
@@ -171,6 +199,7 @@ int main(void)
     tcase_add_test(tests, object_larger_than_the_world);
     tcase_add_test(tests, start_in_contact);
     tcase_add_test(tests, caged_in_contact);
+    tcase_add_test(tests, balls_that_vanish);
     tcase_add_test(tests, coincident_balls_and_points);
     return test_main(suite);
 }

@@ -18,12 +18,14 @@ static struct {
     struct glued c, d;
 } world;
 
-static void world_make(int32_t dim, uint64_t seed)
+typedef void maker(int32_t dim, uint64_t seed, struct pockets *out);
+
+static void world_make(maker *make, int32_t dim, uint64_t seed)
 {
     world.block = test_alloc(ARENA);
     memset(world.block, 0x5a, ARENA);
     cage_arena_init(&world.arena, world.block, ARENA);
-    pockets_make(dim, seed, &world.p);
+    make(dim, seed, &world.p);
     pockets_side(&world.arena, &world.p, &world.side);
     glued_make(&world.arena, &world.side, &world.p.at[0], &world.c);
     glued_make(&world.arena, &world.side, &world.p.at[1], &world.d);
@@ -98,16 +100,16 @@ static void check_by_force(uint64_t seed, const struct whole *mixture, const str
     exact_centre_clear(&centre);
 }
 
-START_TEST(glues_what_touches)
+/* Every gluing of so many worlds, against the truth. Expected of them: `mixtures` in a hundred, `several` pairs too. */
+static void glue_all(maker *make, int32_t dim, int32_t rounds, int32_t expect_mixtures, int32_t expect_several)
 {
     static bool wanted[GLUED_MOST][GLUED_MOST];
-    int32_t rounds = test_rounds(_i == 2 ? 1000 : 500), mixtures = 0, pairs = 0, seeded = 0, several = 0, components = 0,
-            points = 0;
+    int32_t mixtures = 0, pairs = 0, seeded = 0, several = 0, components = 0, points = 0;
     for (int32_t seed = 0; seed < rounds; seed++) {
         int32_t count, others, mixed, mixed_back;
         struct whole mixture;
         struct cage_touch *touch, *other;
-        world_make(_i, (uint64_t)seed);
+        world_make(make, dim, (uint64_t)seed);
         whole_mix(&world.c.whole, &world.d.whole, &mixture);
         check_regions(&world.c);
         check_regions(&world.d);
@@ -134,8 +136,19 @@ START_TEST(glues_what_touches)
     }
     printf("glue: dim %d: %d gluings of %d components, %d pairs, %d of them more than one, %d by a mixture, %d pairs by seeds, "
            "%d points\n",
-           _i, (int)(2 * rounds), (int)components, (int)pairs, (int)several, (int)mixtures, (int)seeded, (int)points);
-    ck_assert(several > rounds / 10 && mixtures > rounds / 20);
+           dim, (int)(2 * rounds), (int)components, (int)pairs, (int)several, (int)mixtures, (int)seeded, (int)points);
+    ck_assert(several * 100 >= rounds * expect_several && mixtures * 100 >= rounds * expect_mixtures);
+}
+
+START_TEST(glues_what_touches)
+{
+    glue_all(pockets_make, _i, test_rounds(_i == 2 ? 1000 : 500), 5, 10);
+}
+END_TEST
+
+START_TEST(glues_where_balls_vanish)
+{
+    glue_all(pockets_vanish, _i, test_rounds(3000), 3, 0);
 }
 END_TEST
 
@@ -144,7 +157,7 @@ START_TEST(memory_sweep)
 {
     struct cage_touch *touch, *again;
     int32_t count, mixed, counted, enough = 0;
-    world_make(2 + _i % 2, 100 + (uint64_t)_i);
+    world_make(pockets_make, 2 + _i % 2, 100 + (uint64_t)_i);
     int32_t seed = _i % 3 == 0 ? CAGE_ALL : _i % 5 % world.c.slice.regions;
     ck_assert_int_eq(cage_glue(&world.arena, &world.c.slice, &world.d.slice, seed, &touch, &count, &mixed), CAGE_OK);
     size_t most = 65536 + 8192 * (size_t)(world.c.slice.t.sites + world.d.slice.t.sites);
@@ -173,6 +186,7 @@ int main(void)
     Suite *suite = suite_create("glue in space");
     TCase *tests = test_case(suite, "glue in space");
     tcase_add_loop_test(tests, glues_what_touches, 2, 4);
+    tcase_add_loop_test(tests, glues_where_balls_vanish, 2, 4);
     tcase_add_loop_test(tests, memory_sweep, 0, 30);
     return test_main(suite);
 }

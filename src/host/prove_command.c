@@ -9,7 +9,8 @@
 #include "threads.h"
 
 #define MIB ((size_t)1 << 20)
-#define FIRST_BLOCK (256 * MIB) /* taken where --memory is not given */
+#define FIRST_BLOCK (1024 * MIB) /* asked for where --memory is not given; if it is not to be had, less, down to */
+#define LEAST_BLOCK (64 * MIB)
 #define LARGEST_BLOCK (SIZE_MAX / MIB > 4096 ? 4096 * MIB : SIZE_MAX / 2) /* it grows to this */
 #define STEPS_A_TURN 32         /* between two looks at the clock */
 #define STEPS_TOGETHER 1024     /* the same when threads work together */
@@ -59,7 +60,7 @@ void host_prove_help(FILE *out)
         "                  cells; in space 0 to %d (default %ld): 4 * 8^N\n"
         "  --max-cells N   cells made at most, up to %d (default %ld in the plane, %ld in space)\n"
         "  --memory BYTES  one block of this size and no more; K, M and G mean 1024, 1024^2, 1024^3.\n"
-        "                  Without it the block is 256M, and grows to 4G when the proof needs it\n"
+        "                  Without it the block is up to 1G, and grows to 4G when the proof needs it\n"
         "  --threads N     work on so many cores (default: all, with --memory one); the answer and its counts\n"
         "                  are the same. More than one take memory of their own as well, 4M to 256M each\n"
         "  --unit U        length of a grid unit (default: the finest power of two at which the scene\n"
@@ -300,18 +301,30 @@ static int32_t attempt(host_answer *answer, void *block, size_t bytes, int32_t t
     return state < 0 ? state : CAGE_OK;
 }
 
+/* A block of the size, or of less if it need not be all of it. */
+static void *take_block(size_t *size, size_t least)
+{
+    void *block = malloc(*size > 0 ? *size : 1);
+    while (block == NULL && *size / 2 >= least) {
+        *size /= 2;
+        block = malloc(*size);
+    }
+    return block;
+}
+
 /* Proves in a block of the size given, or (bytes null) in one that doubles until it is large enough.
  * The block is the caller's to free, whatever the outcome. */
 static int prove(host_answer *answer, const size_t *bytes, int32_t threads, int progress, void **block, host_error *error)
 {
     const size_t wanted = cage_prove_size(&answer->grid->scene, answer->limits);
+    size_t least = bytes != NULL ? *bytes + 1 : wanted > LEAST_BLOCK ? wanted : LEAST_BLOCK;
     size_t size = bytes != NULL ? *bytes : wanted > FIRST_BLOCK ? wanted : FIRST_BLOCK;
 
     for (;;) {
         uint64_t needed = wanted;
         int32_t state;
 
-        *block = malloc(size > 0 ? size : 1);
+        *block = take_block(&size, least);
         if (*block == NULL)
             return host_fail(error, HOST_MEMORY, "memory: a block of %zu bytes was needed and is not to be had", size);
         state = attempt(answer, *block, size, threads, progress, &needed);
@@ -327,6 +340,7 @@ static int prove(host_answer *answer, const size_t *bytes, int32_t threads, int 
                              (unsigned long long)needed, (unsigned long long)needed);
         free(*block);
         size = needed > 2 * size ? (size_t)needed : 2 * size;
+        least = size;
     }
 }
 
