@@ -21,7 +21,10 @@ struct cage_move {
     int64_t weight; /* the least on the way, less what interpolation takes; -1: it is a sentinel, or there is no such ball in d */
 };
 
-enum { NO_POINT = -1, UNKNOWN_HOME = -2, SMALL = 32, LONG = 256 };
+enum { NO_POINT = -1, UNKNOWN_HOME = -2 };
+
+/* A component of so few simplices is small; its spread ends, undecided, when it is so long. */
+enum { SMALL = 32, LONG = 256 };
 
 static struct cage_move move_of(const struct cage_slice *c, const struct cage_slice *d, int32_t site)
 {

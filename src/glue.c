@@ -1,7 +1,7 @@
 /* glue: which components of neighbouring slices share a point.
  *
  * Cheap proofs (barrier.h) decide nearly every pair of components. What they leave undecided of a component K of c is
- * settled exactly by a mixture (mixture.h): K and L touch iff the witness of L, or the orthocentre of some new free simplex,
+ * settled exactly by a mixture (mixture.c): K and L touch iff the witness of L, or the orthocentre of some new free simplex,
  * is in both. It is in K iff it is off all balls of c and in a simplex labelled K; then it is off all balls of d, and in L
  * iff in a simplex labelled L. */
 #include "glue.h"

@@ -26,7 +26,7 @@ int32_t whole_label(const struct cage_triangulation *in, const int32_t *label, c
 /* The label of a grid point, CAGE_COVERED in a closed ball. */
 int32_t whole_locate(const struct whole *w, const int32_t p[3], int32_t *hint);
 
-/* The label of any point x[0..1] of the plane, found without a walk: in all simplices by exact barycentric
+/* The label of any point x of the plane (x[0..1]) or of space, found without a walk: in all simplices by exact barycentric
  * coordinates; CAGE_COVERED in a ball. Beyond the sentinels is outside. */
 int32_t whole_label_exact(const struct cage_triangulation *in, const int32_t *label, mpq_t x[3]);
 
