@@ -93,16 +93,19 @@ soak: build/soak build/soak_space ## hunt for contradictions: build/soak FROM TO
 
 # ---- benchmarks ------------------------------------------------------------------------------------
 
-build/bench/bench: $(wildcard tests/bench/*.c tests/bench/*.h) build/libcage.a
+BENCH = $(wildcard tests/bench/*.c)
+build/bench/unpruned: PRUNE = tests/bench/unpruned/prune.c
+build/bench/bench build/bench/unpruned: $(BENCH) $(wildcard tests/bench/*.h tests/bench/unpruned/*.c) build/libcage.a
 	@mkdir -p $(@D)
-	$(CC) -std=c99 -D_POSIX_C_SOURCE=200809L $(CFLAGS) -iquote src -Iinclude $(wildcard tests/bench/*.c) build/libcage.a -lm -o $@
+	$(CC) -std=c99 -D_POSIX_C_SOURCE=200809L $(CFLAGS) -iquote src -Iinclude $(BENCH) $(PRUNE) build/libcage.a -lm -o $@
 
 build/bench/peer: tests/bench/peer_cgal.cpp tests/bench/sets.h
 	@mkdir -p $(@D)
 	$(CXX) -std=c++17 -O3 -march=x86-64-v3 -Iinclude $< -lgmp -lmpfr -o $@
 
-bench: build/bench/bench ## time triangulations, slices and proofs
+bench: build/bench/bench build/bench/unpruned ## time triangulations, slices and proofs; the last of these without skipping balls
 	build/bench/bench
+	build/bench/unpruned fence
 
 bench-peers: build/bench/bench build/bench/peer ## the same beside CGAL, pair by pair (needs libcgal-dev)
 	sh tests/bench/compare.sh build/bench/bench build/bench/peer

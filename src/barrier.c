@@ -15,10 +15,13 @@
 #include "box.h"
 #include "grid.h"
 
-/* How a site moves. */
+#include <string.h>
+
+/* How the balls of one object ball move. */
 struct cage_move {
     int64_t by[3];
-    int64_t weight; /* the least on the way, less what interpolation takes; -1: it is a sentinel, or there is no such ball in d */
+    int64_t sag;    /* what interpolation takes from their weights */
+    int64_t change; /* of their radii */
 };
 
 enum { NO_POINT = -1, UNKNOWN_HOME = -2 };
@@ -26,27 +29,32 @@ enum { NO_POINT = -1, UNKNOWN_HOME = -2 };
 /* A component of so few simplices is small; its spread ends, undecided, when it is so long. */
 enum { SMALL = 32, LONG = 256 };
 
-static struct cage_move move_of(const struct cage_slice *c, const struct cage_slice *d, int32_t site)
+static struct cage_move move_of(const struct cage_part *from, const struct cage_part *to)
 {
-    struct cage_move move = {{0, 0, 0}, -1};
-    if (site <= c->t.dim)
-        return move;
-    const struct cage_part *from = &c->part[c->t.ball[site]], *to = &d->part[c->t.ball[site]];
-    int64_t square = 0; /* |by| < 2 |y| + 2: < 2^58 */
-    for (int32_t i = 0; i < 3; i++) {
+    struct cage_move move = {{0, 0, 0}, 3, to->change - from->change};
+    for (int32_t i = 0; i < 3; i++) { /* |by| < 2 |y| + 2: squares < 2^58 */
         move.by[i] = (int64_t)from->at[i] - to->at[i];
-        square += move.by[i] * move.by[i];
+        move.sag += move.by[i] * move.by[i];
     }
-    int64_t here = c->t.site[site].r, there = here + to->change - from->change, least = here < there ? here : there;
-    if (least >= 0) /* interpolated weights sag by |by|^2 / 4 at most */
-        move.weight = least * least - (square + 3) / 4;
+    move.sag /= 4; /* |by|^2 / 4 at most, rounded up */
     return move;
+}
+
+/* The least weight of a site on its way, less what interpolation takes; -1: it is a sentinel, or there is no such ball in d. */
+static int64_t weight_of(const struct cage_view *view, int32_t site)
+{
+    const struct cage_triangulation *t = &view->c->t;
+    if (site <= t->dim)
+        return -1;
+    const struct cage_move *move = &view->move[t->ball[site]];
+    int64_t here = t->site[site].r, there = here + move->change, least = here < there ? here : there;
+    return least < 0 ? -1 : least * least - move->sag;
 }
 
 int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, struct cage_view *view)
 {
     struct cage_view made = {c, d, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0, 0, CAGE_COVERED, false};
-    made.move = cage_arena_take(arena, (size_t)c->t.sites, sizeof *made.move);
+    made.move = cage_arena_take(arena, (size_t)c->parts, sizeof *made.move);
     made.reached = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.reached);
     made.queue = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.queue);
     made.used = cage_arena_take(arena, (size_t)c->t.sites, sizeof *made.used);
@@ -55,14 +63,11 @@ int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, con
     made.off = cage_arena_take(arena, (size_t)d->regions, sizeof *made.off);
     if (!made.move || !made.reached || !made.queue || !made.used || !made.solid || !made.home || !made.off)
         return CAGE_ERROR_MEMORY;
-    for (int32_t i = 0; i < c->t.sites; i++) {
-        made.move[i] = move_of(c, d, i);
-        made.used[i] = 0;
-    }
-    for (int32_t s = 0; s < c->t.simplices; s++)
-        made.reached[s] = 0;
-    for (int32_t s = 0; s < c->t.simplices; s++)
-        made.solid[s] = -1;
+    for (int32_t i = 0; i < c->parts; i++)
+        made.move[i] = move_of(&c->part[i], &d->part[i]);
+    memset(made.used, 0, (size_t)c->t.sites * sizeof *made.used);
+    memset(made.reached, 0, (size_t)c->t.simplices * sizeof *made.reached);
+    memset(made.solid, -1, (size_t)c->t.simplices * sizeof *made.solid);
     for (int32_t l = 0; l < d->regions; l++) {
         made.home[l] = d->region[l].known ? UNKNOWN_HOME : NO_POINT;
         made.off[l] = -1;
@@ -75,7 +80,7 @@ int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, con
 static int64_t square_of(const struct cage_view *view, int32_t a, int32_t b)
 {
     const struct cage_triangulation *t = &view->c->t;
-    const struct cage_move *am = &view->move[a], *bm = &view->move[b];
+    const struct cage_move *am = &view->move[t->ball[a]], *bm = &view->move[t->ball[b]];
     int64_t e[3], here = 0, there = 0;
     cage_difference(&t->site[a], &t->site[b], e);
     for (int32_t n = 0; n < 3; n++) {
@@ -95,7 +100,7 @@ static bool is_solid_facet(const struct cage_view *view, int32_t s, int32_t i)
     for (int32_t k = 0; k <= t->dim; k++)
         if (k != i) {
             v[count] = t->simplex[s].v[k];
-            weight[count] = view->move[v[count]].weight;
+            weight[count] = weight_of(view, v[count]);
             if (weight[count++] < 0)
                 return false;
         }
@@ -118,7 +123,7 @@ static bool is_solid(struct cage_view *view, int32_t s)
         return view->solid[s];
     }
     for (int32_t i = 0; i < 4; i++) {
-        weight[i] = view->move[simplex->v[i]].weight;
+        weight[i] = weight_of(view, simplex->v[i]);
         if (weight[i] < 0)
             return false;
         for (int32_t k = 0; k < i; k++)

@@ -9,7 +9,7 @@ struct cage_move;
 /* Two slices of the same side of one scene, seen from the first. */
 struct cage_view {
     const struct cage_slice *c, *d;
-    struct cage_move *move; /* of each site of c, to where it is in d */
+    struct cage_move *move; /* for each object ball, of its balls from c to d */
     int32_t *used;          /* for each site of c: the last spread in which it was used, by whoever collects them */
     int32_t *reached;       /* for each simplex of c: the last spread that reached it */
     int32_t *queue;         /* those that it reached, in their order */

@@ -9,10 +9,8 @@ enum { UNSEEN = -2 }; /* free, not yet labelled */
 
 bool cage_simplex_outer(const struct cage_triangulation *t, int32_t s)
 {
-    for (int32_t i = 0; i <= t->dim; i++)
-        if (t->simplex[s].v[i] <= t->dim)
-            return true;
-    return false;
+    const int32_t *v = t->simplex[s].v;
+    return v[0] <= t->dim || v[1] <= t->dim || v[2] <= t->dim || (t->dim == 3 && v[3] <= 3);
 }
 
 bool cage_component_free(const struct cage_triangulation *t, int32_t s)
@@ -20,10 +18,8 @@ bool cage_component_free(const struct cage_triangulation *t, int32_t s)
     if (cage_simplex_outer(t, s))
         return true; /* its power is positive: it is |o - sentinel|^2 + 1 */
     const struct cage_site *v[4];
-    struct cage_centre centre;
     cage_simplex_sites(t, s, v);
-    cage_orthocentre(t->dim, v, &centre);
-    return cage_centre_power(&centre) > 0;
+    return cage_simplex_power(t->dim, v) > 0;
 }
 
 bool cage_component_wall(const struct cage_triangulation *t, int32_t s, int32_t i)

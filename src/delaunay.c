@@ -452,8 +452,12 @@ int32_t cage_delaunay_locate_centre(const struct cage_triangulation *t, const st
 
 void cage_simplex_sites(const struct cage_triangulation *t, int32_t s, const struct cage_site *v[4])
 {
-    for (int32_t i = 0; i <= t->dim; i++)
-        v[i] = &t->site[t->simplex[s].v[i]];
+    const int32_t *index = t->simplex[s].v;
+    v[0] = &t->site[index[0]];
+    v[1] = &t->site[index[1]];
+    v[2] = &t->site[index[2]];
+    if (t->dim == 3)
+        v[3] = &t->site[index[3]];
 }
 
 void cage_facet_sites(const struct cage_triangulation *t, int32_t s, int32_t i, const struct cage_site *face[3])

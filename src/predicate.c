@@ -24,26 +24,109 @@ static void cross(const int64_t b[3], const int64_t c[3], int64_t out[3])
     out[2] = b[0] * c[1] - b[1] * c[0];
 }
 
-/* Solve 2 u_i . o = lift_i by Cramer's rule: o = sum of lift_i times the cofactor vector of u_i, over 2 det. */
-void cage_orthocentre(int32_t dim, const struct cage_site *const v[4], struct cage_centre *centre)
+/* The orthocentre z_0 + o solves 2 u_i . o = a_i, u_i = z_i - z_0, a_i < 2^61.2 in the plane, 2^51.8 in space. */
+static CAGE_INLINE void set_up(int32_t dim, const struct cage_site *const v[4], int64_t u[3][3], int64_t a[3])
 {
-    int64_t u[3][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 1}}; /* in the plane the third equation says z = 0 */
-    int64_t a[3] = {0, 0, 0}, cofactor[3][3];
     for (int32_t i = 0; i < dim; i++) {
         cage_difference(v[i + 1], v[0], u[i]);
         a[i] = lift(v[0], v[i + 1], u[i]);
     }
-    cross(u[1], u[2], cofactor[0]);
-    cross(u[2], u[0], cofactor[1]);
-    cross(u[0], u[1], cofactor[2]);
-    for (int32_t k = 0; k < 3; k++) {
-        cage_i128 sum = cage_i128_mul(cofactor[0][k], a[0]); /* 2^31 2^61.2, or 2^51 2^51.8, three of them */
-        sum = cage_i128_add(sum, cage_i128_mul(cofactor[1][k], a[1]));
-        centre->offset[k] = cage_i128_add(sum, cage_i128_mul(cofactor[2][k], a[2]));
+}
+
+/* The cofactor vectors of the u_i, entries < 2^51; returns their determinant, < 2^78. */
+static cage_i128 cofactors(int64_t u[3][3], int64_t out[3][3])
+{
+    cross(u[1], u[2], out[0]);
+    cross(u[2], u[0], out[1]);
+    cross(u[0], u[1], out[2]);
+    cage_i128 det = cage_i128_add(cage_i128_mul(out[0][0], u[0][0]), cage_i128_mul(out[0][1], u[0][1]));
+    return cage_i128_add(det, cage_i128_mul(out[0][2], u[0][2]));
+}
+
+/* By Cramer's rule: o = sum of a_i times the cofactor vector of u_i, over 2 det. */
+void cage_orthocentre(int32_t dim, const struct cage_site *const v[4], struct cage_centre *centre)
+{
+    int64_t u[3][3], a[3], cofactor[3][3];
+    cage_i128 det;
+    if (dim == 2) { /* 2^61.2 2^30, two of them */
+        set_up(2, v, u, a);
+        centre->offset[0] = cage_i128_sub(cage_i128_mul(a[0], u[1][1]), cage_i128_mul(a[1], u[0][1]));
+        centre->offset[1] = cage_i128_sub(cage_i128_mul(a[1], u[0][0]), cage_i128_mul(a[0], u[1][0]));
+        centre->offset[2] = cage_i128_of(0);
+        det = cage_i128_of(u[0][0] * u[1][1] - u[0][1] * u[1][0]);
+    } else { /* 2^51.8 2^51, three of them */
+        set_up(3, v, u, a);
+        det = cofactors(u, cofactor);
+        for (int32_t k = 0; k < 3; k++) {
+            cage_i128 sum = cage_i128_add(cage_i128_mul(cofactor[0][k], a[0]), cage_i128_mul(cofactor[1][k], a[1]));
+            centre->offset[k] = cage_i128_add(sum, cage_i128_mul(cofactor[2][k], a[2]));
+        }
     }
-    cage_i128 det = dim == 2 ? cage_i128_of(cofactor[2][2]) : cage_triple(u[0], u[1], u[2]);
     centre->denominator = cage_i128_add(det, det);
     centre->base = v[0];
+}
+
+static CAGE_INLINE uint64_t size_of(int64_t a) { return a < 0 ? -(uint64_t)a : (uint64_t)a; }
+
+/* floor(a / 2^drop), |a| < 2^62 */
+static CAGE_INLINE int64_t cut(int64_t a, uint32_t drop)
+{
+    const uint64_t lifted = (uint64_t)1 << 62;
+    return (int64_t)(((uint64_t)a + lifted) >> drop) - (int64_t)(lifted >> drop);
+}
+
+static CAGE_INLINE uint32_t excess(uint64_t all, uint32_t bits)
+{
+    uint32_t has = cage_u64_bits(all);
+    return has > bits ? has - bits : 0;
+}
+
+/* The sign of |n|^2 - (2 det r / 2^drop)^2 if every |n_k| is known but for less than the error; 0 if that does not
+ * tell. |n_k| + error < 2^62; 2 det r < 2^104. */
+static CAGE_INLINE int32_t compare_roughly(int32_t dim, const int64_t n[3], uint64_t error, cage_i128 det, int32_t r,
+                                           uint32_t drop)
+{
+    cage_i128 least = cage_i128_of(0), most = least; /* sums of up to three squares < 2^124 */
+    for (int32_t k = 0; k < dim; k++) {
+        uint64_t size = size_of(n[k]), less = size > error ? size - error : 0;
+        least = cage_i128_add(least, cage_u64_mul(less, less));
+        most = cage_i128_add(most, cage_u64_mul(size + error, size + error));
+    }
+    cage_i128 product = cage_i128_shr(cage_i128_scale(det, 2 * (int64_t)r), drop);
+    uint64_t low = cage_i128_low(product), g = cage_i128_high(product) | low >> 63 ? INT64_MAX : low; /* more is as good */
+    if (cage_i128_compare(most, cage_u64_mul(g, g)) <= 0)
+        return -1;
+    return cage_i128_compare(least, cage_u64_mul(g + 1, g + 1)) >= 0; /* g + 1 <= 2^63 */
+}
+
+/* The sign of the power from the top 31 bits of the a_i, so that products are off by less than the other factor; or 0. */
+static int32_t rough_power_2d(const struct cage_site *const v[4])
+{
+    int64_t u[3][3], a[3];
+    set_up(2, v, u, a);
+    uint32_t drop = excess(size_of(a[0]) | size_of(a[1]), 31);
+    int64_t a0 = cut(a[0], drop), a1 = cut(a[1], drop); /* magnitudes <= 2^31 */
+    const int64_t n[3] = {a0 * u[1][1] - a1 * u[0][1], a1 * u[0][0] - a0 * u[1][0], 0};
+    uint64_t error = size_of(u[0][0]) + size_of(u[0][1]) + size_of(u[1][0]) + size_of(u[1][1]); /* < 2^32 */
+    return compare_roughly(2, n, error, cage_i128_of(u[0][0] * u[1][1] - u[0][1] * u[1][0]), v[0]->r, drop);
+}
+
+/* The same from the top 29 bits of the a_i and 31 of the cofactors: products are off by less than the sum of what is left of
+ * their factors, and 1. */
+static int32_t rough_power_3d(const struct cage_site *const v[4])
+{
+    int64_t u[3][3], a[3], cofactor[3][3], n[3];
+    set_up(3, v, u, a);
+    cage_i128 det = cofactors(u, cofactor);
+    uint64_t all = 0;
+    for (int32_t i = 0; i < 3; i++)
+        all |= size_of(cofactor[i][0]) | size_of(cofactor[i][1]) | size_of(cofactor[i][2]);
+    uint32_t lift_drop = excess(size_of(a[0]) | size_of(a[1]) | size_of(a[2]), 29), drop = excess(all, 31);
+    int64_t a0 = cut(a[0], lift_drop), a1 = cut(a[1], lift_drop), a2 = cut(a[2], lift_drop);
+    for (int32_t k = 0; k < 3; k++) /* <= 3 2^29 2^31 */
+        n[k] = a0 * cut(cofactor[0][k], drop) + a1 * cut(cofactor[1][k], drop) + a2 * cut(cofactor[2][k], drop);
+    uint64_t error = size_of(a0) + size_of(a1) + size_of(a2) + 3 * ((all >> drop) + 2); /* < 2^34 */
+    return compare_roughly(3, n, error, det, v[0]->r, drop + lift_drop);
 }
 
 int32_t cage_norm_compare(const cage_i128 n[3], cage_i128 g)
@@ -54,17 +137,19 @@ int32_t cage_norm_compare(const cage_i128 n[3], cage_i128 g)
         all = cage_i128_make(cage_i128_high(all) | cage_i128_high(size[k]), cage_i128_low(all) | cage_i128_low(size[k]));
     }
     uint32_t bits = cage_u128_bits(all), shift = bits > 61 ? bits - 61 : 0;
-    /* Truncated to t < 2^61: the true value lies in [t, t + 1) 2^shift. Sums of three squares < 2^124. */
-    cage_i128 least = cage_i128_of(0), most = least;
+    /* Truncated to t < 2^61: the true value lies in [t, t + 1) 2^shift. The squares and their sum < 2^124. */
+    cage_i128 least = cage_i128_of(0);
+    uint64_t slack = 3; /* of three squares: the sum of 2 t + 1 < 6 2^61 + 3 < 2^64 */
     for (int32_t k = 0; k < 3; k++) {
         uint64_t t = cage_i128_low(cage_i128_shr(size[k], shift));
         least = cage_i128_add(least, cage_u64_mul(t, t));
-        most = cage_i128_add(most, cage_u64_mul(t + 1, t + 1));
+        slack += 2 * t;
     }
     uint64_t t = cage_i128_low(cage_i128_shr(g, shift));
-    if (cage_i128_compare(least, cage_u64_mul(t + 1, t + 1)) >= 0)
+    cage_i128 other = cage_u64_mul(t, t);
+    if (cage_i128_compare(least, cage_i128_add(other, cage_i128_make(0, 2 * t + 1))) >= 0)
         return 1;
-    if (cage_i128_compare(most, cage_u64_mul(t, t)) <= 0)
+    if (cage_i128_compare(cage_i128_add(least, cage_i128_make(0, slack)), other) <= 0)
         return -1;
     cage_i256 sum = cage_i256_mul(size[0], size[0]);
     sum = cage_i256_add(sum, cage_i256_mul(size[1], size[1]));
@@ -84,10 +169,20 @@ cage_i128 cage_simplex_volume(int32_t dim, const struct cage_site *const v[4])
 }
 
 /* p = |offset / denominator|^2 - r_0^2. */
-int32_t cage_centre_power(const struct cage_centre *centre)
+static int32_t centre_power(const struct cage_centre *centre)
 {
     /* < 2^63 2^29 in the plane, 2^80 2^24 in space */
     return cage_norm_compare(centre->offset, cage_i128_scale(centre->denominator, centre->base->r));
+}
+
+int32_t cage_simplex_power(int32_t dim, const struct cage_site *const v[4])
+{
+    int32_t sign = dim == 2 ? rough_power_2d(v) : rough_power_3d(v);
+    if (sign != 0)
+        return sign;
+    struct cage_centre centre;
+    cage_orthocentre(dim, v, &centre);
+    return centre_power(&centre);
 }
 
 static int64_t top(cage_i128 a, uint32_t drop)

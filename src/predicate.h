@@ -113,8 +113,8 @@ struct cage_centre {
 
 void cage_orthocentre(int32_t dim, const struct cage_site *const v[4], struct cage_centre *centre);
 
-/* The sign of p, the power of that orthocentre: is the simplex free? Degree 6 (plane) or 8 (space). No sentinels. */
-int32_t cage_centre_power(const struct cage_centre *centre);
+/* The sign of p, the power of its orthocentre: is the positive simplex free? Degree 6 (plane) or 8 (space). No sentinels. */
+int32_t cage_simplex_power(int32_t dim, const struct cage_site *const v[4]);
 
 /* Is the orthocentre off the closed ball? Components of the distance times the denominator: < 2^95 in the plane,
  * 2^108 in space. */

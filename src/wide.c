@@ -1,12 +1,6 @@
 /* wide: 128- and 256-bit signed integers, without needing a 128-bit compiler type. */
 #include "wide.h"
 
-uint32_t cage_u128_bits(cage_i128 a)
-{
-    uint64_t high = cage_i128_high(a);
-    return high ? 64 + cage_u64_bits(high) : cage_u64_bits(cage_i128_low(a));
-}
-
 cage_i128 cage_u128_divide(cage_i128 a, cage_i128 b, cage_i128 *remainder)
 {
     uint64_t high = 0, low = 0;

@@ -156,7 +156,11 @@ static CAGE_INLINE int32_t cage_i128_compare(cage_i128 a, cage_i128 b)
 }
 
 /* Bits needed for the unsigned value a: 0 for 0, 128 at most. */
-uint32_t cage_u128_bits(cage_i128 a);
+static CAGE_INLINE uint32_t cage_u128_bits(cage_i128 a)
+{
+    uint64_t high = cage_i128_high(a);
+    return high ? 64 + cage_u64_bits(high) : cage_u64_bits(cage_i128_low(a));
+}
 
 /* Floor and remainder of the unsigned a by the unsigned b > 0, b < 2^127. */
 cage_i128 cage_u128_divide(cage_i128 a, cage_i128 b, cage_i128 *remainder);

@@ -47,7 +47,7 @@ struct backend {
     int64_t (*power)(const struct cage_site *site, const int32_t p[3]);
     /* offset[0..2], then the denominator, of the orthocentre of v */
     void (*centre)(int32_t dim, const struct cage_site *const v[4], words out[4]);
-    int32_t (*centre_power)(int32_t dim, const struct cage_site *const v[4]);
+    int32_t (*simplex_power)(int32_t dim, const struct cage_site *const v[4]);
     int32_t (*centre_side)(int32_t dim, const struct cage_site *const face[3], const struct cage_site *const v[4]);
     bool (*centre_off)(int32_t dim, const struct cage_site *const v[4], const struct cage_site *ball);
     int32_t (*facet_power)(int32_t dim, const struct cage_site *const facet[3]);

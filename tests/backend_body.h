@@ -89,13 +89,6 @@ static void backend_centre(int32_t dim, const struct cage_site *const v[4], word
     out[3] = widen(centre.denominator);
 }
 
-static int32_t backend_centre_power(int32_t dim, const struct cage_site *const v[4])
-{
-    struct cage_centre centre;
-    cage_orthocentre(dim, v, &centre);
-    return cage_centre_power(&centre);
-}
-
 static int32_t backend_centre_side(int32_t dim, const struct cage_site *const face[3],
                                    const struct cage_site *const v[4])
 {
@@ -120,7 +113,7 @@ static bool backend_centre_off(int32_t dim, const struct cage_site *const v[4], 
 
 const struct backend BACKEND = {
     BACKEND_TEXT(BACKEND), backend_wide,         backend_side,        backend_conflict,     backend_volume,
-    backend_norm_compare,  backend_power,        backend_centre,      backend_centre_power, backend_centre_side,
+    backend_norm_compare,  backend_power,        backend_centre,      cage_simplex_power,   backend_centre_side,
     backend_centre_off,    cage_facet_power,     cage_facet_attached, cage_edges_covered,   cage_tetrahedron_covered,
     BACKEND_EXACT,
 };

@@ -8,7 +8,6 @@
 #define RENAME_WITH(a, b) RENAME_JOIN(a, b)
 #define RENAME(name) RENAME_WITH(PREFIX, name)
 
-#define cage_u128_bits RENAME(u128_bits)
 #define cage_u128_divide RENAME(u128_divide)
 #define cage_i128_nearest RENAME(i128_nearest)
 #define cage_i128_floor RENAME(i128_floor)
@@ -23,7 +22,7 @@
 #define cage_norm_compare RENAME(norm_compare)
 #define cage_simplex_volume RENAME(simplex_volume)
 #define cage_orthocentre RENAME(orthocentre)
-#define cage_centre_power RENAME(centre_power)
+#define cage_simplex_power RENAME(simplex_power)
 #define cage_centre_side RENAME(centre_side)
 #define cage_centre_off RENAME(centre_off)
 #define cage_facet_power RENAME(facet_power)

@@ -13,7 +13,7 @@ enum {
     VOLUME,
     POWER,
     CENTRE,
-    CENTRE_POWER,
+    SIMPLEX_POWER,
     CENTRE_SIDE,
     OFF,
     FACET_POWER,
@@ -23,7 +23,7 @@ enum {
     NORM,
     PREDICATES
 };
-static const char *const names[PREDICATES] = {"side", "conflict", "volume", "power", "centre", "centre power",
+static const char *const names[PREDICATES] = {"side", "conflict", "volume", "power", "centre", "simplex power",
                                               "centre side", "off", "facet power", "attached", "covered", "solid", "norm"};
 
 static const struct backend *const backends[4] = {&native, &limbs, &broken_carry, &broken_sign};
@@ -156,7 +156,7 @@ static void check_simplex(int dim, const struct cage_site *const v[4], const str
     }
     note(CENTRE, 1, same);
     if (!sites_sentinel_among(dim + 1, v)) {
-        COMPARE(CENTRE_POWER, mpq_sgn(centre->power), centre_power(dim, v));
+        COMPARE(SIMPLEX_POWER, mpq_sgn(centre->power), simplex_power(dim, v));
         check_solid(dim, v, centre, l);
     }
     if (!sites_sentinel_among(1, &p))
@@ -219,7 +219,7 @@ static void judge(int dim)
         for (int k = 0; k < 2; k++)
             ck_assert_msg(wrong[k][p] == 0, "%s: %s: %ld of %ld wrong", backends[k]->name, names[p], wrong[k][p], tried[p]);
     /* Every answer was wanted often, ties included. */
-    static const int three[] = {SIDE, CENTRE_POWER, CENTRE_SIDE, FACET_POWER};
+    static const int three[] = {SIDE, SIMPLEX_POWER, CENTRE_SIDE, FACET_POWER};
     for (int i = 0; i < 4; i++)
         for (int s = 0; s < 3; s++)
             ck_assert_msg(seen[three[i]][s] > tried[three[i]] / 200, "%s: answer %d hardly seen", names[three[i]], s - 1);
@@ -238,7 +238,7 @@ static void judge(int dim)
     ck_assert_int_gt(carry, 0);
     ck_assert_int_gt(sign, 0);
     ck_assert_int_gt(wrong[2][CONFLICT], 0);
-    ck_assert_int_gt(wrong[dim == 2 ? 3 : 2][CENTRE_POWER], 0);
+    ck_assert_int_gt(wrong[dim == 2 ? 3 : 2][SIMPLEX_POWER], 0);
     memset(tried, 0, sizeof tried);
     memset(wrong, 0, sizeof wrong);
     memset(seen, 0, sizeof seen);
@@ -327,7 +327,7 @@ START_TEST(both_ways_to_decide)
             if (!sites_orient(dim, v))
                 continue;
             *limbs.exact = 0;
-            int32_t sign = limbs.centre_power(dim, v);
+            int32_t sign = limbs.simplex_power(dim, v);
             easy += round & 1;
             easy_exact += (round & 1) && *limbs.exact > 0;
             tie += !(round & 1) && sign == 0;
