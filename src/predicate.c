@@ -86,7 +86,7 @@ static CAGE_INLINE uint32_t excess(uint64_t all, uint32_t bits)
 static CAGE_INLINE int32_t compare_roughly(int32_t dim, const int64_t n[3], uint64_t error, cage_i128 det, int32_t r,
                                            uint32_t drop)
 {
-    cage_i128 least = cage_i128_of(0), most = least; /* sums of up to three squares < 2^124 */
+    cage_i128 least = cage_i128_of(0), most = least; /* up to three squares, each < 2^124 */
     for (int32_t k = 0; k < dim; k++) {
         uint64_t size = size_of(n[k]), less = size > error ? size - error : 0;
         least = cage_i128_add(least, cage_u64_mul(less, less));

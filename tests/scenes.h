@@ -1,4 +1,4 @@
-/* scenes.h: planar scenes near the border between caged and free, the same bits everywhere. */
+/* scenes.h: planar scenes near the border between caged and free. */
 #ifndef SCENES_H
 #define SCENES_H
 
@@ -21,7 +21,8 @@ typedef struct scene {
     uint64_t seed;
 } scene;
 
-/* A function of the seed alone; the family is seed % SCENE_FAMILIES. Fits CAGE_REACH_2D for every pivot
+/* A function of the seed, the same bits with every build of one compiler (another may draw arguments in another
+ * order); the family is seed % SCENE_FAMILIES. Fits CAGE_REACH_2D for every pivot
  * within the box of the object's centres. The start is free in nearly all scenes. */
 void scene_random(uint64_t seed, scene *out);
 

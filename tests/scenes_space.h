@@ -1,4 +1,4 @@
-/* scenes_space.h: scenes in space near the border between caged and free, the same bits everywhere. */
+/* scenes_space.h: scenes in space near the border between caged and free. */
 #ifndef SCENES_SPACE_H
 #define SCENES_SPACE_H
 
@@ -22,7 +22,8 @@ typedef struct space_scene {
     uint64_t seed;
 } space_scene;
 
-/* A function of the seed alone; the family is seed % SPACE_FAMILIES. Fits CAGE_REACH_3D. The start is
+/* A function of the seed, the same bits with every build of one compiler (another may draw arguments in another
+ * order); the family is seed % SPACE_FAMILIES. Fits CAGE_REACH_3D. The start is
  * free in nearly all scenes. */
 void space_random(uint64_t seed, space_scene *out);
 
