@@ -96,6 +96,23 @@ space peanut chambers_wide CONNECTED left_chamber right_chamber outer
 # space ring link CAGED home
 # space mug eye CAGED home
 
+# How many large components (present in half of the cells or more) the inner slices have, as cells get finer.
+echo
+printf '%-8s %9s %9s %9s %9s  %s\n' 'walls' 'level 2' 'level 3' 'level 4' 'level 5' 'together: large components of the inner slices, by cage atlas'
+for radius in 4 10 15; do
+    line=$(printf 'R = %-4s' $radius) total=0
+    for level in 2 3 4 5; do
+        "$command" atlas --object "$examples/walls/plus.xyzr" --obstacles "$examples/walls/walls_R$radius.xyzr" --side inner \
+            --level $level -o "$folder/walls_R$radius.atlas" --json >"$folder/walls_R$radius.json" || failed=$((failed + 1))
+        large=$(awk -F'"cells": ' '/"cells":/ { n = $2 + 0; if (!all) all = n; else if (2 * n >= all) large++ } END { print large }' \
+            "$folder/walls_R$radius.json")
+        total=$(echo "$total $(value "$folder/walls_R$radius.json" seconds)" | awk '{ print $1 + $2 }')
+        line="$line $(printf '%9s' "$large")"
+    done
+    printf '%s %8.3f s\n' "$line" "$total"
+    [ "$radius:$large" = 4:4 ] || [ "$radius:$large" = 10:3 ] || [ "$radius:$large" = 15:2 ] || failed=$((failed + 1))
+done
+
 if [ "$failed" -gt 0 ]; then
     echo "$failed of the verdicts are not the ones expected" >&2
     exit 1

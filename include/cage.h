@@ -48,6 +48,7 @@ extern "C" {
 #define CAGE_ERROR_RANGE (-3)     /* the scene or a pose does not fit CAGE_REACH */
 #define CAGE_ERROR_RADIUS (-4)    /* a negative radius */
 #define CAGE_ERROR_ROTATION (-5)  /* a quaternion of zero, too large, or not about z in the plane */
+#define CAGE_ERROR_ATLAS (-7)     /* the bytes are no atlas of this version, or were changed */
 #define CAGE_ERROR_MEMORY (-6)    /* the block is too small: to begin see cage_prove_size, once begun cage_result.needed_bytes */
 
 /* ---- verdicts ----------------------------------------------------------------------------------- */
@@ -204,6 +205,95 @@ int32_t cage_prove_region(cage_proof *proof, const int32_t origin[3], int32_t pi
  * balls as given, continuous in time; 0 when it is not; or an error. Shares no code with the search. */
 int32_t cage_path_check(const cage_scene *scene, const cage_pose *start, const cage_pose *goal,
                         const int32_t pivot[3], const cage_pose *path, int32_t count);
+
+/* ---- atlas: making ------------------------------------------------------------------------------- */
+
+/* An atlas is the connectivity of a whole scene, made once and asked many times: all cells, the components of their slices, the
+ * graph of those that share points, and its connected classes, on the inner side and on the outer (the paper's
+ * Algorithms 1 to 4). It is a string of bytes, the same on every machine, that may lie anywhere: in a file, in flash. */
+
+typedef struct cage_plan {
+    int32_t side;      /* CAGE_SIDE_...: with INNER it proves separation only, with OUTER connection only */
+    int32_t level;     /* of all cells to begin with: 0 to CAGE_LEVEL_MAX, or -1: chosen from the balls */
+    int32_t max_cells; /* 0: that is all; else, with both sides, cells are cut until no more than that would be made: those first
+                          where the sides disagree on what is connected, of these the coarsest */
+    int32_t note[2];   /* the caller's: see cage_atlas_note */
+} cage_plan;
+
+/* Index 0 is the inner side, 1 the outer. */
+typedef struct cage_survey_result {
+    int32_t level;         /* of the finest cell */
+    int32_t cells;         /* cells made, those that were cut included */
+    int32_t leaves;        /* those that were not */
+    int32_t slices[2];     /* slices built */
+    int32_t gluings[2];    /* pairs of neighbouring slices glued */
+    int32_t mixtures[2];   /* gluings that needed a triangulation of their own */
+    int32_t classes[2];    /* connected classes; these and atlas_bytes are 0 until it is finished */
+    int64_t balls[2];      /* collision balls of all slices */
+    int64_t inserted[2];   /* of these, the ones triangulated */
+    int64_t steps;         /* slices, gluings, and rounds of cutting */
+    uint64_t atlas_bytes;  /* of the atlas */
+    uint64_t peak_bytes;   /* most bytes of the block in use at once, slices held in store not counted */
+    uint64_t needed_bytes; /* after CAGE_ERROR_MEMORY: the block to try next, larger; it may ask for still more */
+} cage_survey_result;
+
+typedef struct cage_survey cage_survey; /* lives at the start of the caller's block */
+
+void cage_plan_default(cage_plan *plan);
+
+/* Bytes that are enough for a survey to begin, at any alignment; 0 if scene or plan are not valid. To finish it takes what the
+ * atlas takes (see needed_bytes), and some. */
+size_t cage_survey_size(const cage_scene *scene, const cage_plan *plan);
+
+/* The scene's balls are read until the atlas was written; memory (any alignment) is used until then. */
+int32_t cage_survey_begin(cage_survey **survey, const cage_scene *scene, const cage_plan *plan, void *memory, size_t bytes);
+
+/* Do at most that many steps. 1: finished, 0: more to do, or an error. The atlas does not depend on how they are portioned, nor on
+ * the block. */
+int32_t cage_survey_run(cage_survey *survey, int64_t steps);
+
+const cage_survey_result *cage_survey_result_of(const cage_survey *survey);
+
+/* The size of the finished atlas (0: it is not finished), written to out (aligned to 4 bytes or not) if it has as many bytes. */
+size_t cage_survey_atlas(const cage_survey *survey, void *out, size_t bytes);
+
+/* ---- atlas: asking ------------------------------------------------------------------------------- */
+
+/* An opened atlas: the caller's bytes, which must stay. */
+typedef struct cage_atlas {
+    const unsigned char *byte;
+    int32_t words;
+    int32_t dim;
+    int32_t side;       /* CAGE_SIDE_...: what it can answer for */
+    int32_t classes[2]; /* on the inner side and on the outer; class 0 is the outside's */
+    int32_t nodes[2];   /* (cell, component) pairs */
+    int32_t leaves;     /* cells */
+    int32_t note[2];
+} cage_atlas;
+
+/* What a class is. All translations of the pivot that belong to it are within low..high (zeros for class 0, which goes on for
+ * ever). pose: a pose of the pivot in it, if known is 1. */
+typedef struct cage_class {
+    int32_t cells;
+    int32_t nodes;
+    int32_t low[3], high[3];
+    int32_t known;
+    cage_pose pose;
+} cage_class;
+
+/* Check all of it and open it: CAGE_ERROR_ATLAS if the bytes are not an atlas, cut off or changed. Reads every byte once. */
+int32_t cage_atlas_open(cage_atlas *atlas, const void *bytes, size_t size);
+
+/* What is proved about the start (goal null), or start and goal, user's frame: a verdict, exact on the borders of cells as
+ * well, or an error. What cage_prove_begin with any limits answers is never another one, but one of both may be UNDEFINED.
+ * Reads some hundred words of the atlas, and uses less than 2 KB of stack. */
+int32_t cage_atlas_ask(const cage_atlas *atlas, const cage_pose *start, const cage_pose *goal);
+
+/* The class of a pose on one side, or CAGE_NO_CLASS where balls cover it: on the inner side it then collides. */
+#define CAGE_NO_CLASS (-1000)
+int32_t cage_atlas_locate(const cage_atlas *atlas, const cage_pose *pose, int32_t side);
+
+int32_t cage_atlas_class(const cage_atlas *atlas, int32_t side, int32_t class_number, cage_class *out);
 
 /* ---- words --------------------------------------------------------------------------------------- */
 const char *cage_verdict_text(int32_t verdict); /* "CAGED", ... */

@@ -82,17 +82,18 @@ static uint64_t work_bytes(const cage_scene *scene)
     return (scene->dim == 2 ? 600 : 1400) * (inner > outer ? inner : outer) + 32768;
 }
 
-/* What is left of the block is shared out: a quarter for facts; half to work in, or as much as that ever takes and an
- * eighth; the rest to hold slices. */
-enum { FACTS_PART = 4, WORK_PART = 2, LEAST_WORK_PART = 8, WORK_TIMES = 4 };
+/* What is left of the block is shared out: a quarter for facts (half, when all of them are kept); two thirds of the rest to work in,
+ * or as much as that ever takes and an eighth; and what then is left to hold slices. */
+enum { FACTS_PART = 4, WORK_PART = 2, ALL_FACTS_PART = 2, ALL_WORK_PART = 3, LEAST_WORK_PART = 8, WORK_TIMES = 4 };
+
+static size_t facts_part(const struct cage_proof *proof) { return proof->all ? ALL_FACTS_PART : FACTS_PART; }
+static size_t work_part(const struct cage_proof *proof) { return proof->all ? ALL_WORK_PART : WORK_PART; }
 
 static void share_out(struct cage_proof *proof)
 {
-    size_t left = proof->arena.size - proof->arena.used, facts = left / FACTS_PART / CAGE_ALIGN * CAGE_ALIGN;
-    uint64_t work = WORK_TIMES * work_bytes(&proof->scene) + left / LEAST_WORK_PART;
-    size_t hold = left / WORK_PART - facts;
-    if (work < left / WORK_PART)
-        hold = left - facts - (size_t)work;
+    size_t left = proof->arena.size - proof->arena.used, facts = left / facts_part(proof) / CAGE_ALIGN * CAGE_ALIGN;
+    uint64_t most = left / work_part(proof), work = WORK_TIMES * work_bytes(&proof->scene) + left / LEAST_WORK_PART;
+    size_t hold = left - facts - (size_t)(work < most ? work : most);
     hold = hold / CAGE_ALIGN * CAGE_ALIGN;
     unsigned char *at = proof->arena.base + proof->arena.used + facts;
     proof->shared = left;
@@ -159,11 +160,11 @@ static uint64_t needed_by_one(const struct cage_proof *proof)
     if (proof->scratch.needed > proof->scratch.size) {
         uint64_t needed = (uint64_t)proof->scratch.needed + CAGE_ALIGN, ever = WORK_TIMES * work_bytes(&proof->scene);
         uint64_t beyond = needed > ever ? LEAST_WORK_PART * (needed - ever) : 0;
-        shared = beyond > WORK_PART * needed ? beyond : WORK_PART * needed;
+        shared = beyond > work_part(proof) * needed ? beyond : work_part(proof) * needed;
     } else if (proof->arena.needed > proof->arena.size) {
-        shared = proof->shared + FACTS_PART * ((uint64_t)(proof->arena.needed - proof->arena.size) + CAGE_ALIGN);
+        shared = proof->shared + facts_part(proof) * ((uint64_t)(proof->arena.needed - proof->arena.size) + CAGE_ALIGN);
     }
-    return proof->arena.size - proof->shared / FACTS_PART + (shared < least ? least : shared) + 16 * CAGE_ALIGN;
+    return proof->arena.size - proof->shared / facts_part(proof) + (shared < least ? least : shared) + 16 * CAGE_ALIGN;
 }
 
 uint64_t cage_proof_needed(const struct cage_proof *proof)
@@ -224,7 +225,7 @@ static int32_t begin(struct cage_proof *proof, const cage_pose *start, const cag
 }
 
 static int32_t begin_one(struct cage_proof **proof, const cage_scene *scene, const cage_pose *start, const cage_pose *goal,
-                         const cage_limits *limits, void *memory, size_t bytes)
+                         const cage_limits *limits, bool all, void *memory, size_t bytes)
 {
     struct cage_arena arena;
     cage_arena_init(&arena, memory, bytes);
@@ -235,6 +236,7 @@ static int32_t begin_one(struct cage_proof **proof, const cage_scene *scene, con
     made->arena = arena;
     made->limits = *limits;
     made->scene = *scene;
+    made->all = all;
     *proof = made;
     return begin(made, start, goal);
 }
@@ -263,13 +265,21 @@ int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage
         share_limits(limits, &of_first, &of_second);
     size_t part = two ? bytes_of_second(bytes) : 0;
     struct cage_proof *made, *second = NULL;
-    error = begin_one(&made, scene, start, goal, &of_first, memory, bytes - part);
+    error = begin_one(&made, scene, start, goal, &of_first, false, memory, bytes - part);
     if (error == CAGE_OK && two && !cage_proof_is_done(made))
-        error = begin_one(&second, scene, start, goal, &of_second, (unsigned char *)memory + (bytes - part), part);
+        error = begin_one(&second, scene, start, goal, &of_second, false, (unsigned char *)memory + (bytes - part), part);
     if (error != CAGE_OK)
         return error;
     made->second = second;
     cage_proof_total(made);
     *proof = made;
     return CAGE_OK;
+}
+
+int32_t cage_proof_begin_all(struct cage_proof **proof, const cage_scene *scene, const cage_limits *limits, void *memory,
+                             size_t bytes)
+{
+    const cage_pose nowhere = {{0, 0, 0}, {1, 0, 0, 0}};
+    int32_t error = limits_check(limits, scene->dim);
+    return error != CAGE_OK ? error : begin_one(proof, scene, &nowhere, NULL, limits, true, memory, bytes);
 }

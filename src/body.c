@@ -172,7 +172,7 @@ void cage_pose_pivot(const cage_pose *pose, const int32_t pivot[3], int32_t out[
 }
 
 /* |N (x - X) + M y| < N (R + r) with the integer matrix M = N R(q), N = |q|^2 <= 2^62: terms < 2^62 2^30 + 3 2^62 2^28. */
-static bool pair_collides(const cage_pose *pose, const cage_ball *y, const cage_ball *x)
+bool cage_pair_collides(const cage_pose *pose, const cage_ball *y, const cage_ball *x)
 {
     int64_t w = pose->q[0], i = pose->q[1], j = pose->q[2], k = pose->q[3];
     int64_t ww = w * w, ii = i * i, jj = j * j, kk = k * k, norm = ww + ii + jj + kk;
@@ -205,7 +205,7 @@ int32_t cage_collides(const cage_scene *scene, const cage_pose *pose, int32_t si
     const cage_ball *obstacle = shape_balls(&scene->obstacles, sign, &obstacles);
     for (int32_t i = 0; i < objects; i++)
         for (int32_t j = 0; j < obstacles; j++)
-            if (pair_collides(pose, &object[i], &obstacle[j]))
+            if (cage_pair_collides(pose, &object[i], &obstacle[j]))
                 return 1;
     return 0;
 }

@@ -5,6 +5,8 @@
 #include "arena.h"
 #include "cage.h"
 
+#include <stdbool.h>
+
 /* One side of a scene: the object's balls relative to the pivot. */
 struct cage_side {
     const cage_ball *object; /* objects balls, centres relative to the pivot */
@@ -29,5 +31,8 @@ int32_t cage_pose_check(int32_t dim, const cage_pose *pose);
 
 /* Where the pivot is at that pose (user's frame), to the nearest grid point: off by less than 0.71 (0.87). */
 void cage_pose_pivot(const cage_pose *pose, const int32_t pivot[3], int32_t out[3]);
+
+/* Do the object's ball (object's frame) and the obstacle's overlap at the pose? Exact. */
+bool cage_pair_collides(const cage_pose *pose, const cage_ball *y, const cage_ball *x);
 
 #endif

@@ -67,6 +67,14 @@ static int32_t skip_below(const struct cage_graph *graph, int32_t cell)
     }
 }
 
+int32_t cage_graph_leaf(const struct cage_graph *graph, int32_t after)
+{
+    int32_t at = after < 0 ? CAGE_CELL_ROOT : skip_below(graph, after);
+    while (at >= 0 && graph->cell[at].child)
+        at = graph->cell[at].child;
+    return at;
+}
+
 int32_t cage_graph_neighbour(const struct cage_graph *graph, int32_t cell, int32_t after)
 {
     int32_t at = after + 1;

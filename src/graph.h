@@ -79,6 +79,9 @@ bool cage_graph_refine(struct cage_graph *graph, int32_t cell);
  * goal, holds it. -1: no more. Start and goal are not neighbours of each other. */
 int32_t cage_graph_neighbour(const struct cage_graph *graph, int32_t cell, int32_t after);
 
+/* The next leaf after `after` (-1: the first) in the order of the tree, start and goal left out; -1: no more. */
+int32_t cage_graph_leaf(const struct cage_graph *graph, int32_t after);
+
 bool cage_graph_is_glued(const struct cage_node *node, int32_t with);
 
 /* Record a slice of so many components. */

@@ -23,6 +23,7 @@ struct cage_proof {
     struct cage_arena arena;   /* what stays: this struct, the graph, facts, the path */
     struct cage_arena scratch; /* empty between steps */
     struct cage_store store;
+    bool all;                  /* nothing is asked: all cells are wanted, and there is no start */
     size_t shared;             /* bytes that facts, store and scratch have together */
     struct cage_graph graph;
     struct cage_side side[CAGE_SIDES];
@@ -51,6 +52,10 @@ struct cage_proof {
 /* The second search may make one cell for so many of the first. */
 enum { CAGE_SECOND_CELLS = 8 };
 
+/* The state of a proof whose cells are all wanted; cells 0 and 1 are not. */
+int32_t cage_proof_begin_all(struct cage_proof **proof, const cage_scene *scene, const cage_limits *limits, void *memory,
+                             size_t bytes);
+
 /* The side that it searches now, or -1. */
 int32_t cage_proof_searching(const struct cage_proof *proof);
 
@@ -72,6 +77,10 @@ uint64_t cage_proof_needed(const struct cage_proof *proof);
 
 /* The slice of a cell, built again if it was dropped. */
 int32_t cage_proof_slice(struct cage_proof *proof, int32_t side, int32_t cell, const struct cage_slice **slice);
+
+/* Those of two cells, both at once. */
+int32_t cage_proof_slices(struct cage_proof *proof, int32_t side, int32_t a, int32_t b, const struct cage_slice **c,
+                          const struct cage_slice **d);
 
 /* What a search did: one unit of work (and all the graph search that needs none), or it reached the target (proof->way), or
  * there is nothing left to do. */

@@ -90,9 +90,9 @@ static int32_t keep_exact(const struct cage_slice *c, const struct cage_slice *d
     return kept;
 }
 
-/* Both slices at once. Building one may drop the other; in an empty store there is room for both if there ever is. */
-static int32_t both_slices(struct cage_proof *proof, int32_t side, int32_t a, int32_t b, const struct cage_slice **c,
-                           const struct cage_slice **d)
+/* Building one may drop the other; in an empty store there is room for both if there ever is. */
+int32_t cage_proof_slices(struct cage_proof *proof, int32_t side, int32_t a, int32_t b, const struct cage_slice **c,
+                          const struct cage_slice **d)
 {
     struct cage_held **first = &proof->graph.cell[a].facts[side].held, **second = &proof->graph.cell[b].facts[side].held;
     for (int32_t attempt = 0; attempt < 2; attempt++) {
@@ -113,7 +113,7 @@ static int32_t glue(struct cage_proof *proof, int32_t side, const struct cage_no
 {
     int32_t a = node->cell;
     const struct cage_slice *c, *d;
-    int32_t error = both_slices(proof, side, a, b, &c, &d);
+    int32_t error = cage_proof_slices(proof, side, a, b, &c, &d);
     if (error != CAGE_OK)
         return error;
     size_t mark = proof->scratch.used;

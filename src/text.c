@@ -32,6 +32,7 @@ const char *cage_error_text(int32_t error)
         "a radius is negative",
         "a quaternion is zero, too large, or not about z in the plane",
         "the block of memory is too small",
+        "the bytes are not an atlas of this version, or were changed",
     };
-    return error <= CAGE_OK && error >= CAGE_ERROR_MEMORY ? text[-error] : "?";
+    return error <= CAGE_OK && error >= CAGE_ERROR_ATLAS ? text[-error] : "?";
 }

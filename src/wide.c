@@ -1,7 +1,7 @@
 /* wide: 128- and 256-bit signed integers, without needing a 128-bit compiler type. */
 #include "wide.h"
 
-cage_i128 cage_u128_divide(cage_i128 a, cage_i128 b, cage_i128 *remainder)
+cage_i128 cage_u128_divide_by_bits(cage_i128 a, cage_i128 b, cage_i128 *remainder)
 {
     uint64_t high = 0, low = 0;
     uint32_t of_a = cage_u128_bits(a), of_b = cage_u128_bits(b), bit = of_a < of_b ? 0 : of_a - of_b + 1;

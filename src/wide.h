@@ -59,6 +59,11 @@ static CAGE_INLINE cage_i128 cage_i128_scale(cage_i128 a, int64_t b)
 /* 0 <= bits <= 127, toward zero bits shifted in */
 static CAGE_INLINE cage_i128 cage_i128_shr(cage_i128 a, uint32_t bits) { return (cage_i128)((cage_u128)a >> bits); }
 static CAGE_INLINE cage_i128 cage_i128_shl(cage_i128 a, uint32_t bits) { return (cage_i128)((cage_u128)a << bits); }
+static CAGE_INLINE cage_i128 cage_u128_divide(cage_i128 a, cage_i128 b, cage_i128 *remainder)
+{
+    *remainder = (cage_i128)((cage_u128)a % (cage_u128)b);
+    return (cage_i128)((cage_u128)a / (cage_u128)b);
+}
 
 #else
 
@@ -119,6 +124,7 @@ static inline cage_i128 cage_i128_shl(cage_i128 a, uint32_t bits)
         return cage_i128_make(a.low << (bits - 64), 0);
     return cage_i128_make((a.high << bits) | (a.low >> (64 - bits)), a.low << bits);
 }
+#define cage_u128_divide cage_u128_divide_by_bits
 
 #endif
 
@@ -162,8 +168,8 @@ static CAGE_INLINE uint32_t cage_u128_bits(cage_i128 a)
     return high ? 64 + cage_u64_bits(high) : cage_u64_bits(cage_i128_low(a));
 }
 
-/* Floor and remainder of the unsigned a by the unsigned b > 0, b < 2^127. */
-cage_i128 cage_u128_divide(cage_i128 a, cage_i128 b, cage_i128 *remainder);
+/* Floor and remainder of the unsigned a by the unsigned b > 0, b < 2^127: cage_u128_divide, where there is no wider type. */
+cage_i128 cage_u128_divide_by_bits(cage_i128 a, cage_i128 b, cage_i128 *remainder);
 
 /* The nearest integer to a / b, ties toward +infinity, clamped to +-limit; b is not 0, |a| and |b| < 2^126. */
 int64_t cage_i128_nearest(cage_i128 a, cage_i128 b, int64_t limit);

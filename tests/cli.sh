@@ -665,6 +665,117 @@ prove "the same question gives the same answer" bar fence_gap 0,0,0 --json
 grep -v seconds "$folder/out" >"$folder/second"
 holds cmp -s "$folder/first" "$folder/second"
 
+# ---- atlas and query -------------------------------------------------------------------------------
+
+# name, object, obstacles, then options: one atlas, in $folder/atlas.
+atlas() {
+    case=$1 object=$folder/$2 obstacles=$folder/$3
+    shift 3
+    call atlas --object "$object" --obstacles "$obstacles" -o "$folder/atlas" "$@"
+}
+
+# name, expected verdict, options of cage query
+query() {
+    case=$1 expected=$2
+    shift 2
+    call query "$folder/atlas" "$@"
+    says "$expected"
+}
+
+atlas "an atlas of the fence" bar fence --level 5
+holds [ "$code" -eq 0 ]
+holds grep -q '^Inner, .* classes' "$folder/out"
+query "caged in the fence" CAGED --at 0,0,30
+query "free outside of it" FREE --at 9,9,0
+query "no way out" DISCONNECTED --at 0,0,30 --to 9,9,0
+query "a turn on the spot" CONNECTED --at 0,0,0 --to 0,0,90
+query "a pose of the fence" IN_COLLISION --at 4,4,0
+query "a goal in the fence" IN_COLLISION --at 0,0,0 --to=4,4,0
+case="a mesh of verdicts from standard input"
+printf '0,0,0\n# nothing\n\n9,9,0 # outside\n0,0,0 9,9,0\t\n' | "$command" query "$folder/atlas" >"$folder/out" 2>"$folder/err"
+holds [ "$(tr '\n' ' ' <"$folder/out")" = 'CAGED FREE DISCONNECTED ' ]
+call query "$folder/atlas" --at 0,0,0 --to 9,9,0 --json
+holds grep -qx '{"verdict": "DISCONNECTED", "at": \[[1-9][0-9]*, [1-9][0-9]*\], "to": \[0, 0\]}' "$folder/out"
+case="one bad line is named"
+printf '0,0,0\n0,0\n' | "$command" query "$folder/atlas" >"$folder/out" 2>"$folder/err"
+code=$?
+holds [ "$code" -eq 2 ]
+holds grep -q '^cage: standard input:2: 2 numbers' "$folder/err"
+case="an atlas has a dimension, a grid, a right form"
+call query "$folder/atlas" --at $home
+refused 'the atlas has 2 dimensions'
+call query "$folder/atlas" --at 1e9,0,0
+refused 'beyond the grid'
+head -c 1000 "$folder/atlas" >"$folder/cut"
+call query "$folder/cut" --at 0,0,0
+refused "$folder/cut is not an atlas"
+call query "$folder/fence" --at 0,0,0
+refused 'is not an atlas'
+call query "$folder/none" --at 0,0,0
+refused 'cannot be read'
+call query
+refused 'FILE is missing'
+call query "$folder/atlas" --to 0,0,0
+refused '--at is missing'
+call query "$folder/atlas" "$folder/atlas" --at 0,0,0
+refused 'is not an option'
+atlas "the inner side alone" bar fence --side inner --level 5 --quiet
+holds [ "$code" -eq 0 ]
+holds [ ! -s "$folder/out" ]
+query "it proves cages" CAGED --at 0,0,30
+query "and no ways" UNDEFINED --at 9,9,0
+atlas "the outer side alone" bar fence --side outer --level 5 --quiet
+query "it proves ways" FREE --at 9,9,0
+query "and no cages" UNDEFINED --at 0,0,30
+atlas "a budget" bar fence_gap --level 1 --budget 400 --quiet
+query "decides what level 1 does not" FREE --at 0,0,0
+atlas "too coarse" bar fence_gap --level 1 --quiet
+query "as this one shows" UNDEFINED --at 0,0,0
+atlas "in space" ball crate --level 0 --quiet
+query "a cage" CAGED --at $home
+query "the outside" FREE --at 9,0,0,1,0,0,0
+atlas "no balls at all" empty empty --level 2 --quiet
+query "all is free" FREE --at 0,0,0
+atlas "as JSON" bar fence --level 4 --json
+if [ -n "$python" ]; then
+    holds $python -c 'import json, sys
+r = json.load(open(sys.argv[1]))
+assert r["dim"] == 2 and r["cells"] == 32 and len(r["inner"]) > 1 and len(r["outer"]) > 1, r
+assert not r["inner"][0]["bounded"] and r["inner"][1]["bounded"] and len(r["inner"][1]["low"]) == 2, r
+low, high = r["inner"][1]["low"], r["inner"][1]["high"]
+assert all(-2.5 < a < -1 and 1 < b < 2.5 for a, b in zip(low, high)), r' "$folder/out"
+fi
+atlas "as a C array" bar fence --level 4 --quiet --c-header "$folder/atlas.h"
+if command -v cc >/dev/null 2>&1; then
+    printf '#include "%s"\n#include <stdio.h>\nint main(void) { return fwrite(cage_atlas_bytes, 1, sizeof cage_atlas_bytes, stdout) == 0; }\n' \
+        "$folder/atlas.h" >"$folder/array.c"
+    cc -std=c99 "$folder/array.c" -o "$folder/array" && "$folder/array" >"$folder/again"
+    holds cmp -s "$folder/atlas" "$folder/again"
+fi
+cp "$folder/atlas" "$folder/first"
+atlas "the same again" bar fence --level 4 --quiet
+holds cmp -s "$folder/atlas" "$folder/first"
+atlas "in as little memory as will do" bar fence --level 4 --quiet --memory 3M
+holds cmp -s "$folder/atlas" "$folder/first"
+atlas "too little memory" bar fence --level 4 --memory 100K
+holds [ "$code" -eq 3 ]
+holds grep -q 'at least [0-9]* are needed' "$folder/err"
+atlas "no budget without both sides" bar fence --side inner --budget 100
+refused '--budget: .*--side must be both'
+atlas "no such level" bar fence --level 15
+refused "--level: '15' is not a whole number"
+atlas "both of one dimension" bar crate
+refused 'the object has 2 dimensions and the obstacles have 3'
+call atlas --object "$folder/bar" --obstacles "$folder/fence"
+refused '-o is missing'
+call atlas --object "$folder/bar" --obstacles "$folder/fence" -o "$folder/none/atlas"
+refused '-o: .*none/atlas cannot be written'
+for name in atlas query; do
+    case="help of $name"
+    call $name --help
+    holds grep -q "^usage: cage $name" "$folder/out"
+done
+
 if [ -c /dev/full ]; then
     case="a full disk is not taken for an answer"
     "$command" prove --object "$folder/disc" --obstacles "$folder/fence" --start 0,0,0 >/dev/full 2>"$folder/err"

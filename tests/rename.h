@@ -8,7 +8,7 @@
 #define RENAME_WITH(a, b) RENAME_JOIN(a, b)
 #define RENAME(name) RENAME_WITH(PREFIX, name)
 
-#define cage_u128_divide RENAME(u128_divide)
+#define cage_u128_divide_by_bits RENAME(u128_divide_by_bits)
 #define cage_i128_nearest RENAME(i128_nearest)
 #define cage_i128_floor RENAME(i128_floor)
 #define cage_u128_root RENAME(u128_root)

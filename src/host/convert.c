@@ -165,6 +165,14 @@ static void convert_pose(const host_pose *pose, double unit, cage_pose *result)
         result->q[k] = (int32_t)floor(pose->q[k] / largest * TURN_3D + 0.5);
 }
 
+int host_pose_to_grid(const host_pose *pose, double unit, cage_pose *result)
+{
+    if (pose_reach(pose) / unit > (pose->dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D))
+        return HOST_BAD_INPUT;
+    convert_pose(pose, unit, result);
+    return HOST_OK;
+}
+
 /* ---- the query ----------------------------------------------------------------------------------- */
 
 /* Does the library take this pose? (cage_collides checks its arguments as a proof would.) */

@@ -73,6 +73,44 @@ typedef struct host_answer {
     const struct picture_cloud *cloud; /* in space: where the pivot can be, null where it was not looked for (picture.h) */
 } host_answer;
 
+/* ---- options.c -------------------------------------------------------------------------------- */
+
+#define HOST_MIB ((size_t)1 << 20)
+#define HOST_FIRST_BLOCK (1024 * HOST_MIB) /* asked for where --memory is not given; if it is not to be had, less, down to */
+#define HOST_LEAST_BLOCK (64 * HOST_MIB)
+#define HOST_LARGEST_BLOCK (SIZE_MAX / HOST_MIB > 4096 ? 4096 * HOST_MIB : SIZE_MAX / 2) /* it grows to this */
+
+/* An option with a value, or (value null) a flag. */
+typedef struct host_option {
+    const char *name;
+    const char **value; /* null before it is read */
+    int *flag;
+} host_option;
+
+/* "--name value", "--name=value", "--flag", and if wanted one operand. */
+int host_read_options(int argc, char **argv, const char *command, const host_option *known, size_t count, const char **operand,
+                      host_error *error);
+
+/* Puts the option's name before what was wrong with its value. */
+int host_blame(host_error *error, const char *option, int code);
+
+/* inner, outer or both; null means both. */
+int host_parse_side(const char *text, int32_t *side, host_error *error);
+
+/* The dimension on which all parts agree; a file without balls fits any. */
+int host_agree_on_dimension(host_query *query, host_error *error);
+
+void host_warn_empty(const char *object, const char *obstacles, const host_query *query);
+
+/* Better before long work than after it. Leaves no file where none was. */
+int host_check_writable(const char *option, const char *path, host_error *error);
+
+/* Seconds, from any beginning. */
+double host_now(void);
+
+/* A block of the size, or of less if it need not be all of it; null if none of at least that is to be had. */
+void *host_take_block(size_t *size, size_t least);
+
 /* ---- number.c --------------------------------------------------------------------------------- */
 
 int host_fail(host_error *error, int code, const char *format, ...)
@@ -103,6 +141,9 @@ void host_free_balls(host_balls *balls);
 int host_to_grid(const host_query *query, double unit, host_grid *grid, host_error *error);
 void host_free_grid(host_grid *grid);
 
+/* A pose on the grid; HOST_BAD_INPUT if it is beyond it. */
+int host_pose_to_grid(const host_pose *pose, double unit, cage_pose *result);
+
 /* The pose in the user's numbers. pivot null: x is where the object's origin is; else x is where
  * the point pivot of the object is, and the result is where its origin is. */
 void host_from_grid(const cage_pose *pose, const int32_t *pivot, int32_t dim, double unit,
@@ -120,6 +161,12 @@ int host_write_svg(const char *path, const host_answer *answer, host_error *erro
 
 /* ---- ply.c, in space only ------------------------------------------------------------------------ */
 int host_write_ply(const char *path, const host_answer *answer, host_error *error);
+
+/* ---- atlas_command.c, query_command.c ------------------------------------------------------------ */
+int host_atlas(int argc, char **argv);
+void host_atlas_help(FILE *out);
+int host_query_command(int argc, char **argv);
+void host_query_help(FILE *out);
 
 /* ---- prove_command.c --------------------------------------------------------------------------- */
 int host_prove(int argc, char **argv);

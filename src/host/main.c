@@ -12,6 +12,8 @@ typedef struct command {
 
 static const command commands[] = {
     { "prove", "prove that an object cannot leave, or find its way out", host_prove, host_prove_help },
+    { "atlas", "find out once how a whole scene is connected, and write it to a file", host_atlas, host_atlas_help },
+    { "query", "ask such a file about poses", host_query_command, host_query_help },
 };
 
 static const size_t command_count = sizeof commands / sizeof commands[0];

@@ -8,10 +8,6 @@
 #include "picture.h"
 #include "threads.h"
 
-#define MIB ((size_t)1 << 20)
-#define FIRST_BLOCK (1024 * MIB) /* asked for where --memory is not given; if it is not to be had, less, down to */
-#define LEAST_BLOCK (64 * MIB)
-#define LARGEST_BLOCK (SIZE_MAX / MIB > 4096 ? 4096 * MIB : SIZE_MAX / 2) /* it grows to this */
 #define STEPS_A_TURN 32         /* between two looks at the clock */
 #define STEPS_TOGETHER 1024     /* the same when threads work together */
 #define ALONE 0.03              /* seconds before they do */
@@ -94,66 +90,25 @@ void host_prove_help(FILE *out)
 
 /* ---- options -------------------------------------------------------------------------------------- */
 
-/* Where the value of that option goes, null if there is no such option. */
-static const char **value_slot(options *given, const char *name, size_t length)
-{
-    const struct {
-        const char *name;
-        const char **slot;
-    } known[] = {
-        { "--object", &given->object },       { "--obstacles", &given->obstacles },
-        { "--start", &given->start },         { "--goal", &given->goal },
-        { "--svg", &given->svg },             { "--side", &given->side },
-        { "--max-level", &given->max_level }, { "--max-cells", &given->max_cells },
-        { "--memory", &given->memory },       { "--unit", &given->unit },
-        { "--ply", &given->ply },             { "--threads", &given->threads },
-    };
-    size_t i;
-
-    for (i = 0; i < sizeof known / sizeof known[0]; i++)
-        if (strlen(known[i].name) == length && memcmp(known[i].name, name, length) == 0)
-            return known[i].slot;
-    return NULL;
-}
-
-/* "--name value" or "--name=value". */
 static int read_options(int argc, char **argv, options *given, host_error *error)
 {
-    int i;
+    const host_option known[] = {
+        { "--object", &given->object, NULL },       { "--obstacles", &given->obstacles, NULL },
+        { "--start", &given->start, NULL },         { "--goal", &given->goal, NULL },
+        { "--svg", &given->svg, NULL },             { "--side", &given->side, NULL },
+        { "--max-level", &given->max_level, NULL }, { "--max-cells", &given->max_cells, NULL },
+        { "--memory", &given->memory, NULL },       { "--unit", &given->unit, NULL },
+        { "--ply", &given->ply, NULL },             { "--threads", &given->threads, NULL },
+        { "--json", NULL, &given->json },           { "--quiet", NULL, &given->quiet },
+    };
+    int code;
 
     memset(given, 0, sizeof *given);
-    for (i = 1; i < argc; i++) {
-        size_t length = strcspn(argv[i], "=");
-        const char **slot = value_slot(given, argv[i], length);
-
-        if (strcmp(argv[i], "--json") == 0)
-            given->json = 1;
-        else if (strcmp(argv[i], "--quiet") == 0)
-            given->quiet = 1;
-        else if (slot == NULL)
-            return host_fail(error, HOST_BAD_INPUT, "'%.100s' is not an option of cage prove (see cage prove --help)",
-                             argv[i]);
-        else if (*slot != NULL)
-            return host_fail(error, HOST_BAD_INPUT, "%.*s is given twice", (int)length, argv[i]);
-        else if (argv[i][length] == '=')
-            *slot = argv[i] + length + 1;
-        else if (i + 1 == argc)
-            return host_fail(error, HOST_BAD_INPUT, "%s needs a value", argv[i]);
-        else
-            *slot = argv[++i];
-    }
-    if (given->object == NULL || given->obstacles == NULL || given->start == NULL)
+    code = host_read_options(argc, argv, "prove", known, sizeof known / sizeof known[0], NULL, error);
+    if (code == HOST_OK && (given->object == NULL || given->obstacles == NULL || given->start == NULL))
         return host_fail(error, HOST_BAD_INPUT, "%s is missing (see cage prove --help)",
                          given->object == NULL ? "--object" : given->obstacles == NULL ? "--obstacles" : "--start");
-    return HOST_OK;
-}
-
-/* Puts the option's name before what was wrong with its value. */
-static int blame(host_error *error, const char *option, int code)
-{
-    host_error why = *error;
-
-    return code == HOST_OK ? code : host_fail(error, code, "%s: %.900s", option, why.text);
+    return code;
 }
 
 static int read_limits(const options *given, int32_t dim, cage_limits *limits, host_error *error)
@@ -162,96 +117,41 @@ static int read_limits(const options *given, int32_t dim, cage_limits *limits, h
     int code = HOST_OK;
 
     cage_limits_default(limits, dim);
-    limits->side = CAGE_SIDE_BOTH;
-    if (given->side != NULL && strcmp(given->side, "inner") == 0)
-        limits->side = CAGE_SIDE_INNER;
-    else if (given->side != NULL && strcmp(given->side, "outer") == 0)
-        limits->side = CAGE_SIDE_OUTER;
-    else if (given->side != NULL && strcmp(given->side, "both") != 0)
-        return host_fail(error, HOST_BAD_INPUT, "--side: '%.100s' is none of both, inner, outer", given->side);
-    if (given->max_level != NULL)
-        code = blame(error, "--max-level",
+    code = host_parse_side(given->side, &limits->side, error);
+    if (code == HOST_OK && given->max_level != NULL)
+        code = host_blame(error, "--max-level",
                      host_parse_integer(given->max_level, 0, finest, &limits->max_level, error));
     if (code == HOST_OK && given->max_cells != NULL)
-        code = blame(error, "--max-cells",
+        code = host_blame(error, "--max-cells",
                      host_parse_integer(given->max_cells, fewest, MOST_CELLS, &limits->max_cells, error));
     return code;
 }
 
 /* ---- input ---------------------------------------------------------------------------------------- */
 
-/* The dimension on which all parts agree; a file without balls fits any. */
-static int agree_on_dimension(host_query *query, host_error *error)
-{
-    const int32_t object = query->object.dim, obstacles = query->obstacles.dim;
-
-    if (object != 0 && obstacles != 0 && object != obstacles)
-        return host_fail(error, HOST_BAD_INPUT,
-                         "the object has %d dimensions and the obstacles have %d", (int)object, (int)obstacles);
-    query->dim = object != 0 ? object : obstacles != 0 ? obstacles : query->start.dim;
-    if (query->start.dim != query->dim || (query->has_goal && query->goal.dim != query->dim))
-        return host_fail(error, HOST_BAD_INPUT, "%s: the balls have %d dimensions, their poses are %s",
-                         query->start.dim != query->dim ? "--start" : "--goal", (int)query->dim,
-                         query->dim == 2 ? "x,y,degrees" : "x,y,z,qw,qx,qy,qz");
-    return HOST_OK;
-}
-
 static int read_query(const options *given, host_query *query, host_error *error)
 {
-    int code = blame(error, "--start", host_parse_pose(given->start, &query->start, error));
+    int code = host_blame(error, "--start", host_parse_pose(given->start, &query->start, error));
 
     query->has_goal = given->goal != NULL;
     if (code == HOST_OK && query->has_goal)
-        code = blame(error, "--goal", host_parse_pose(given->goal, &query->goal, error));
+        code = host_blame(error, "--goal", host_parse_pose(given->goal, &query->goal, error));
     if (code == HOST_OK)
         code = host_read_balls(given->object, &query->object, error);
     if (code == HOST_OK)
         code = host_read_balls(given->obstacles, &query->obstacles, error);
     if (code == HOST_OK)
-        code = agree_on_dimension(query, error);
+        code = host_agree_on_dimension(query, error);
     return code;
 }
 
-static void warn_empty(const options *given, const host_query *query)
-{
-    if (given->quiet)
-        return;
-    if (query->object.count == 0)
-        (void)fprintf(stderr, "cage: warning: %s has no balls\n", given->object);
-    if (query->obstacles.count == 0)
-        (void)fprintf(stderr, "cage: warning: %s has no balls\n", given->obstacles);
-}
-
-/* Better before a long proof than after it. Leaves no file where none was. */
-static int check_writable(const char *option, const char *path, host_error *error)
-{
-    const int there = path != NULL && access(path, F_OK) == 0;
-    FILE *file = path != NULL ? fopen(path, "a") : NULL;
-
-    if (path != NULL && file == NULL)
-        return host_fail(error, HOST_BAD_INPUT, "%s: %.600s cannot be written: %.200s", option, path, strerror(errno));
-    if (file != NULL)
-        (void)fclose(file);
-    if (file != NULL && !there)
-        (void)remove(path);
-    return HOST_OK;
-}
-
 /* ---- the proof ------------------------------------------------------------------------------------ */
-
-static double now(void)
-{
-    struct timespec time;
-
-    (void)clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
-}
 
 static void show_progress(const cage_result *result, double seconds)
 {
     (void)fprintf(stderr, "\r%6.1f s  level %ld, %ld cells, %ld + %ld slices, %.0f MiB ", seconds,
                   (long)result->level, (long)result->cells, (long)result->slices[0], (long)result->slices[1],
-                  (double)result->peak_bytes / (double)MIB);
+                  (double)result->peak_bytes / (double)HOST_MIB);
     (void)fflush(stderr);
 }
 
@@ -266,7 +166,7 @@ static int32_t run_proof(const host_answer *answer, int32_t threads, int progres
     int32_t state;
 
     while ((state = cage_prove_run_with(answer->proof, crew ? STEPS_TOGETHER : STEPS_A_TURN, crew ? &workers : NULL)) == 0) {
-        seen = now();
+        seen = host_now();
         if (crew == NULL && threads > 1 && seen - begun > ALONE) {
             crew = host_threads_start(threads, inner, &workers);
             threads = 1; /* once is enough */
@@ -286,7 +186,7 @@ static int32_t run_proof(const host_answer *answer, int32_t threads, int progres
 static int32_t attempt(host_answer *answer, void *block, size_t bytes, int32_t threads, int progress, uint64_t *needed)
 {
     const host_grid *grid = answer->grid;
-    double begun = now();
+    double begun = host_now();
     int32_t state;
 
     answer->proof = NULL;
@@ -297,19 +197,8 @@ static int32_t attempt(host_answer *answer, void *block, size_t bytes, int32_t t
         answer->result = cage_prove_result(answer->proof);
         *needed = answer->result->needed_bytes;
     }
-    answer->seconds = now() - begun;
+    answer->seconds = host_now() - begun;
     return state < 0 ? state : CAGE_OK;
-}
-
-/* A block of the size, or of less if it need not be all of it. */
-static void *take_block(size_t *size, size_t least)
-{
-    void *block = malloc(*size > 0 ? *size : 1);
-    while (block == NULL && *size / 2 >= least) {
-        *size /= 2;
-        block = malloc(*size);
-    }
-    return block;
 }
 
 /* Proves in a block of the size given, or (bytes null) in one that doubles until it is large enough.
@@ -317,14 +206,14 @@ static void *take_block(size_t *size, size_t least)
 static int prove(host_answer *answer, const size_t *bytes, int32_t threads, int progress, void **block, host_error *error)
 {
     const size_t wanted = cage_prove_size(&answer->grid->scene, answer->limits);
-    size_t least = bytes != NULL ? *bytes + 1 : wanted > LEAST_BLOCK ? wanted : LEAST_BLOCK;
-    size_t size = bytes != NULL ? *bytes : wanted > FIRST_BLOCK ? wanted : FIRST_BLOCK;
+    size_t least = bytes != NULL ? *bytes + 1 : wanted > HOST_LEAST_BLOCK ? wanted : HOST_LEAST_BLOCK;
+    size_t size = bytes != NULL ? *bytes : wanted > HOST_FIRST_BLOCK ? wanted : HOST_FIRST_BLOCK;
 
     for (;;) {
         uint64_t needed = wanted;
         int32_t state;
 
-        *block = take_block(&size, least);
+        *block = host_take_block(&size, least);
         if (*block == NULL)
             return host_fail(error, HOST_MEMORY, "memory: a block of %zu bytes was needed and is not to be had", size);
         state = attempt(answer, *block, size, threads, progress, &needed);
@@ -334,7 +223,7 @@ static int prove(host_answer *answer, const size_t *bytes, int32_t threads, int 
             return host_fail(error, HOST_BAD_INPUT, "the query is not accepted: %.200s", cage_error_text(state));
         if (needed <= size)
             needed = (uint64_t)size + 1;
-        if (bytes != NULL || size > LARGEST_BLOCK / 2 || needed > LARGEST_BLOCK)
+        if (bytes != NULL || size > HOST_LARGEST_BLOCK / 2 || needed > HOST_LARGEST_BLOCK)
             return host_fail(error, HOST_MEMORY,
                              "memory: %zu bytes were too few; at least %llu are needed (--memory %llu)", size,
                              (unsigned long long)needed, (unsigned long long)needed);
@@ -406,26 +295,27 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
     int code = HOST_OK;
 
     if (given->unit != NULL)
-        code = blame(error, "--unit", host_parse_unit(given->unit, &unit, error));
+        code = host_blame(error, "--unit", host_parse_unit(given->unit, &unit, error));
     if (code == HOST_OK && given->memory != NULL)
-        code = blame(error, "--memory", host_parse_bytes(given->memory, &bytes, error));
+        code = host_blame(error, "--memory", host_parse_bytes(given->memory, &bytes, error));
     if (code == HOST_OK && given->threads != NULL)
-        code = blame(error, "--threads", host_parse_integer(given->threads, 1, 64, &threads, error));
+        code = host_blame(error, "--threads", host_parse_integer(given->threads, 1, 64, &threads, error));
     if (code == HOST_OK)
         code = read_query(given, query, error);
     if (code == HOST_OK && given->ply != NULL && query->dim != 3)
         code = host_fail(error, HOST_BAD_INPUT, "--ply: a mesh is of a scene in space, and this one is in the plane (see --svg)");
     if (code == HOST_OK)
-        code = check_writable("--svg", given->svg, error);
+        code = host_check_writable("--svg", given->svg, error);
     if (code == HOST_OK)
-        code = check_writable("--ply", given->ply, error);
+        code = host_check_writable("--ply", given->ply, error);
     if (code == HOST_OK)
         code = read_limits(given, query->dim, &limits, error);
     if (code == HOST_OK)
         code = host_to_grid(query, unit, grid, error);
     if (code != HOST_OK)
         return code;
-    warn_empty(given, query);
+    if (!given->quiet)
+        host_warn_empty(given->object, given->obstacles, query);
     memset(&answer, 0, sizeof answer);
     answer.query = query;
     answer.grid = grid;

@@ -1,0 +1,394 @@
+/* chart: a tree of boxes that tells which component of a slice a grid point lies in.
+ *
+ * In a box a ball matters only if it meets the box, and nowhere in it is farther, in power, than some other one: what it covers
+ * there the other covers too. A point off those that matter is off every ball and lies in a free simplex, which tells its
+ * component (location lemma). When few balls matter, and few free simplices but for those of one component meet the box, they
+ * are listed. Else the box is halved along each axis; a box of one point always ends it. */
+#include "chart.h"
+#include "box.h"
+
+#include <string.h>
+
+enum { LEVELS = 31, NO_WORD = -1, PHANTOM = -2, HASHES = 1024, LONGEST = 2 + CAGE_CHART_BALLS_3D + 5 * CAGE_CHART_SIMPLICES };
+
+/* What becomes of a box without an entry. */
+enum { HALVE = -1, NO_ROOM = -2 };
+
+/* A box that was halved. */
+struct frame {
+    int32_t low[3];
+    int32_t bits;  /* of its size */
+    int32_t entry; /* where its halves' entries begin */
+    int32_t left;  /* halves to do */
+    const int32_t *site; /* those that matter */
+    int32_t sites;
+};
+
+struct draft {
+    const struct cage_slice *slice;
+    const struct cage_triangulation *t;
+    int32_t low[3], high[3]; /* the bounding box */
+    uint32_t *word;
+    int32_t words, room;
+    int32_t *home;  /* of each site: the word where it is, or NO_WORD */
+    int32_t *list;  /* LEVELS lists of sites */
+    int32_t *mark;  /* of each simplex: the last flood that saw it */
+    int32_t *stack; /* simplices */
+    int32_t *met;   /* free simplices that meet the box */
+    int32_t floods;
+    int32_t near; /* a simplex near the last box */
+    int32_t known[HASHES]; /* words where lists begin, by a hash; 0: none */
+    uint32_t making[LONGEST];
+};
+
+/* So many words more, or NO_WORD. */
+static int32_t add_words(struct draft *draft, int32_t count)
+{
+    if (draft->words > draft->room - count)
+        return NO_WORD;
+    draft->words += count;
+    return draft->words - count;
+}
+
+/* ---- which free simplices meet a box ------------------------------------------------------------------------ */
+
+static bool bounds_meet(const struct draft *draft, int32_t s, const struct cage_box *box)
+{
+    const struct cage_triangulation *t = draft->t;
+    for (int32_t k = 0; k < t->dim; k++) {
+        int32_t least = INT32_MAX, most = INT32_MIN;
+        for (int32_t i = 0; i <= t->dim; i++) {
+            const struct cage_site *site = &t->site[t->simplex[s].v[i]];
+            int32_t at = k == 0 ? site->x : k == 1 ? site->y : site->z;
+            least = at < least ? at : least;
+            most = at > most ? at : most;
+        }
+        if (least > box->high[k] || most < box->low[k])
+            return false;
+    }
+    return true;
+}
+
+/* Is the box beyond one facet? If not they may meet. */
+static bool is_beyond(const struct draft *draft, int32_t s, const struct cage_box *box)
+{
+    const struct cage_triangulation *t = draft->t;
+    for (int32_t i = 0; i <= t->dim; i++) {
+        const struct cage_site *facet[3];
+        int64_t normal[3], b[3], c[3] = {0, 0, 1}; /* toward the simplex */
+        cage_facet_sites(t, s, i, facet);
+        cage_difference(facet[1], facet[0], b);
+        if (t->dim == 3)
+            cage_difference(facet[2], facet[0], c);
+        normal[0] = b[1] * c[2] - b[2] * c[1];
+        normal[1] = b[2] * c[0] - b[0] * c[2];
+        normal[2] = b[0] * c[1] - b[1] * c[0];
+        for (int32_t k = 0; k < 3 && t->dim == 2; k++)
+            normal[k] = -normal[k];
+        const struct cage_site corner = {0, (int32_t)(normal[0] > 0 ? box->high : box->low)[0],
+                                         (int32_t)(normal[1] > 0 ? box->high : box->low)[1],
+                                         (int32_t)(normal[2] > 0 ? box->high : box->low)[2], 0};
+        if (cage_side(t->dim, facet, &corner) < 0)
+            return true;
+    }
+    return false;
+}
+
+/* A simplex may be free as far as the balls triangulated go, and covered by one that was left out (see prune.h). */
+static int32_t label_of(const struct draft *draft, int32_t s)
+{
+    int32_t label = draft->slice->label[s];
+    bool all = draft->slice->balls == draft->t->sites - draft->t->dim - 1;
+    return label == CAGE_COVERED && !all && cage_component_free(draft->t, s) ? PHANTOM : label;
+}
+
+/* Find the free simplices that meet the box (and perhaps some that do not); how many. */
+static int32_t meet(struct draft *draft, const struct cage_box *box)
+{
+    const struct cage_triangulation *t = draft->t;
+    const int32_t corner[3] = {(int32_t)box->low[0], (int32_t)box->low[1], (int32_t)box->low[2]};
+    int32_t depth = 0, count = 0;
+    draft->near = cage_delaunay_locate(t, corner, draft->near);
+    draft->floods++;
+    draft->mark[draft->near] = draft->floods;
+    draft->stack[depth++] = draft->near;
+    while (depth > 0) { /* those that meet the box are joined by facets that do */
+        int32_t s = draft->stack[--depth];
+        if (label_of(draft, s) != CAGE_COVERED && !is_beyond(draft, s, box))
+            draft->met[count++] = s;
+        for (int32_t i = 0; i <= t->dim; i++) {
+            int32_t twin = t->simplex[s].twin[i], next = twin >> 2;
+            if (twin == CAGE_HULL || draft->mark[next] == draft->floods || !bounds_meet(draft, next, box))
+                continue;
+            draft->mark[next] = draft->floods;
+            draft->stack[depth++] = next;
+        }
+    }
+    return count;
+}
+
+/* The component that most of them are of; the outside if any is, as it alone has simplices with a sentinel. */
+static int32_t usual(const struct draft *draft, int32_t count)
+{
+    int32_t best = CAGE_COVERED, votes = 0;
+    for (int32_t i = 0; i < count; i++) {
+        int32_t label = label_of(draft, draft->met[i]);
+        if (label == CAGE_OUTSIDE)
+            return label;
+        votes += label == best ? 1 : -1; /* Boyer, Moore, "MJRTY", 1991 */
+        if (votes < 0) {
+            best = label;
+            votes = 1;
+        }
+    }
+    return best;
+}
+
+/* ---- which balls matter in a box ------------------------------------------------------------------------ */
+
+/* Is a nearer than b in power all over the box? |z|^2 - r^2 < 2^59.1, differences of centres < 2^29, corners < 2^28: < 2^61. */
+static bool is_nearer(const struct cage_site *a, const struct cage_site *b, const struct cage_box *box)
+{
+    int64_t d[3], least = b->h - a->h;
+    cage_difference(b, a, d);
+    for (int32_t k = 0; k < 3; k++)
+        least -= 2 * d[k] * (d[k] > 0 ? box->high[k] : box->low[k]);
+    return least > 0;
+}
+
+/* Those of the sites that matter; -1: one of them holds the box. */
+static int32_t choose(const struct draft *draft, const struct cage_box *box, const int32_t *from, int32_t count, int32_t *to)
+{
+    const struct cage_site *site = draft->t->site, *best = NULL;
+    const int32_t middle[3] = {(int32_t)((box->low[0] + box->high[0]) / 2), (int32_t)((box->low[1] + box->high[1]) / 2),
+                               (int32_t)((box->low[2] + box->high[2]) / 2)};
+    int32_t met = 0, kept = 0;
+    int64_t least = INT64_MAX;
+    for (int32_t i = 0; i < count; i++) {
+        if (!cage_box_meets(box, &site[from[i]]))
+            continue;
+        int64_t power = cage_power(&site[from[i]], middle);
+        to[met++] = from[i];
+        if (power < least) {
+            least = power;
+            best = &site[from[i]];
+        }
+    }
+    if (best && cage_box_is_held(box, best))
+        return -1;
+    for (int32_t i = 0; i < met; i++)
+        if (&site[to[i]] == best || !is_nearer(best, &site[to[i]], box))
+            to[kept++] = to[i];
+    return kept;
+}
+
+/* ---- writing -------------------------------------------------------------------------------------------- */
+
+static uint32_t entry_of(uint32_t kind, int32_t value) { return (uint32_t)value << 2 | kind; }
+
+/* The word where the ball is. */
+static int32_t ball_word(struct draft *draft, int32_t site)
+{
+    const struct cage_site *ball = &draft->t->site[site];
+    int32_t dim = draft->t->dim, at = draft->home[site];
+    if (at != NO_WORD || (at = add_words(draft, dim + 1)) == NO_WORD)
+        return at;
+    draft->home[site] = at;
+    draft->word[at] = (uint32_t)ball->x;
+    draft->word[at + 1] = (uint32_t)ball->y;
+    if (dim == 3)
+        draft->word[at + 2] = (uint32_t)ball->z;
+    draft->word[at + dim] = (uint32_t)ball->r;
+    return at;
+}
+
+/* The word where the list is, written unless one like it was; NO_WORD: no room. */
+static int32_t list_word(struct draft *draft, const uint32_t *list, int32_t length)
+{
+    uint32_t hash = 2166136261u; /* FNV-1a */
+    for (int32_t i = 0; i < length; i++)
+        hash = (hash ^ list[i]) * 16777619u;
+    int32_t *known = &draft->known[(hash ^ hash >> 16) % HASHES];
+    size_t bytes = (size_t)length * sizeof *list;
+    if (*known && *known + length <= draft->words && memcmp(&draft->word[*known], list, bytes) == 0)
+        return *known;
+    int32_t at = add_words(draft, length);
+    if (at != NO_WORD) {
+        memcpy(&draft->word[at], list, bytes);
+        *known = at;
+    }
+    return at;
+}
+
+/* The entry of a box in which these balls matter, with those simplices that are not of the usual component; or HALVE, or
+ * NO_ROOM. */
+static int64_t list_entry(struct draft *draft, const int32_t *site, int32_t balls, int32_t met)
+{
+    uint32_t *list = draft->making;
+    int32_t length = 2, simplices = 0, label = usual(draft, met);
+    for (int32_t i = 0; i < balls; i++) {
+        int32_t at = ball_word(draft, site[i]);
+        if (at == NO_WORD)
+            return NO_ROOM;
+        list[length++] = (uint32_t)at;
+    }
+    for (int32_t i = 0; i < met; i++) {
+        int32_t s = draft->met[i], other = label_of(draft, s);
+        if (other == label)
+            continue;
+        if (simplices++ == CAGE_CHART_SIMPLICES)
+            return HALVE;
+        list[length++] = (uint32_t)(other == PHANTOM ? CAGE_COVERED : other);
+        for (int32_t k = 0; k <= draft->t->dim; k++) {
+            int32_t at = ball_word(draft, draft->t->simplex[s].v[k]);
+            if (at == NO_WORD)
+                return NO_ROOM;
+            list[length++] = (uint32_t)at;
+        }
+    }
+    if (label == PHANTOM)
+        label = CAGE_COVERED;
+    if (label == CAGE_COVERED && simplices == 0)
+        return entry_of(CAGE_CHART_LABEL, 0);
+    list[0] = (uint32_t)simplices << 16 | (uint32_t)balls;
+    list[1] = (uint32_t)label;
+    int32_t at = list_word(draft, list, length);
+    return at == NO_WORD ? NO_ROOM : (int64_t)entry_of(CAGE_CHART_LIST, at);
+}
+
+/* ---- the tree ------------------------------------------------------------------------------------------- */
+
+/* The box of a frame's half, clipped to the bounding box; false: nothing is left of it. */
+static bool half_of(const struct draft *draft, const struct frame *frame, int32_t half, struct cage_box *box)
+{
+    int64_t size = (int64_t)1 << (frame->bits - 1);
+    for (int32_t k = 0; k < 3; k++) {
+        int64_t low = frame->low[k] + (half >> k & 1 ? size : 0), high = low + size - 1;
+        box->low[k] = k < draft->t->dim ? low : 0;
+        box->high[k] = k >= draft->t->dim ? 0 : high < draft->high[k] ? high : draft->high[k];
+        if (box->low[k] > box->high[k])
+            return false;
+    }
+    return true;
+}
+
+/* The entry of a box in which these sites matter, or HALVE, or NO_ROOM. */
+static int64_t settle(struct draft *draft, const struct cage_box *box, const int32_t *site, int32_t count)
+{
+    int32_t most = draft->t->dim == 2 ? CAGE_CHART_BALLS_2D : CAGE_CHART_BALLS_3D;
+    const int32_t point[3] = {(int32_t)box->low[0], (int32_t)box->low[1], (int32_t)box->low[2]};
+    if (count < 0)
+        return entry_of(CAGE_CHART_LABEL, 0);
+    if (count == 0) {
+        draft->near = cage_delaunay_locate(draft->t, point, draft->near);
+        return entry_of(CAGE_CHART_LABEL, 1 + draft->slice->label[draft->near]);
+    }
+    if (box->low[0] == box->high[0] && box->low[1] == box->high[1] && box->low[2] == box->high[2])
+        return entry_of(CAGE_CHART_LABEL, 1 + cage_slice_locate(draft->slice, point));
+    return count > most ? HALVE : list_entry(draft, site, count, meet(draft, box));
+}
+
+/* Write the entries of all halves below the frame, depth first. False: no room. */
+static bool grow(struct draft *draft, const struct frame *top)
+{
+    struct frame frame[LEVELS] = {*top};
+    int32_t depth = 0;
+    while (depth >= 0) {
+        struct frame *f = &frame[depth];
+        struct cage_box box;
+        if (f->left == 0) {
+            depth--;
+            continue;
+        }
+        int32_t half = --f->left, *site = draft->list + (size_t)(depth + 1) * (size_t)draft->t->sites;
+        draft->word[f->entry + half] = entry_of(CAGE_CHART_LABEL, 0); /* beyond the bounding box nothing is asked */
+        if (!half_of(draft, f, half, &box))
+            continue;
+        int32_t count = choose(draft, &box, f->site, f->sites, site), at = NO_WORD;
+        int64_t entry = settle(draft, &box, site, count);
+        if (entry == HALVE && (at = add_words(draft, 1 << draft->t->dim)) != NO_WORD) {
+            const struct frame next = {{(int32_t)box.low[0], (int32_t)box.low[1], (int32_t)box.low[2]},
+                                       f->bits - 1, at, 1 << draft->t->dim, site, count};
+            frame[++depth] = next; /* sizes of at least 2: fewer than LEVELS */
+            entry = entry_of(CAGE_CHART_SPLIT, at);
+        }
+        if (entry < 0)
+            return false;
+        draft->word[f->entry + half] = (uint32_t)entry;
+    }
+    return true;
+}
+
+static void bound(struct draft *draft)
+{
+    for (int32_t k = 0; k < 3; k++) {
+        draft->low[k] = 0;
+        draft->high[k] = draft->t->sites > draft->t->dim + 1 ? 0 : -1;
+    }
+    for (int32_t i = draft->t->dim + 1; i < draft->t->sites; i++) {
+        const struct cage_site *ball = &draft->t->site[i];
+        const int32_t at[3] = {ball->x, ball->y, ball->z};
+        for (int32_t k = 0; k < draft->t->dim; k++) {
+            bool first = i == draft->t->dim + 1;
+            draft->low[k] = first || at[k] - ball->r < draft->low[k] ? at[k] - ball->r : draft->low[k];
+            draft->high[k] = first || at[k] + ball->r > draft->high[k] ? at[k] + ball->r : draft->high[k];
+        }
+    }
+}
+
+/* All words; false: no room. */
+static bool write(struct draft *draft)
+{
+    int32_t count = 0, bits = 0;
+    if (add_words(draft, CAGE_CHART_HEAD) == NO_WORD)
+        return false;
+    for (int32_t k = 0; k < 3; k++) {
+        while (((int64_t)1 << bits) <= (int64_t)draft->high[k] - draft->low[k])
+            bits++; /* <= 29 */
+        draft->word[CAGE_CHART_LOW + k] = (uint32_t)draft->low[k];
+        draft->word[CAGE_CHART_HIGH + k] = (uint32_t)draft->high[k];
+    }
+    draft->word[CAGE_CHART_BITS] = (uint32_t)bits;
+    for (int32_t i = draft->t->dim + 1; i < draft->t->sites; i++)
+        draft->list[count++] = i;
+    /* The root is the low half of a box twice as large, of which nothing else is done. */
+    const struct frame top = {{draft->low[0], draft->low[1], draft->low[2]}, bits + 1, CAGE_CHART_ROOT, 1, draft->list, count};
+    return grow(draft, &top);
+}
+
+int32_t cage_chart_make(struct cage_arena *arena, const struct cage_slice *slice, struct cage_chart *out)
+{
+    size_t mark = arena->used, sites = (size_t)slice->t.sites, simplices = (size_t)slice->t.simplices;
+    struct draft *draft = cage_arena_take(arena, 1, sizeof *draft);
+    if (!draft)
+        return CAGE_ERROR_MEMORY;
+    memset(draft, 0, sizeof *draft);
+    draft->slice = slice;
+    draft->t = &slice->t;
+    draft->home = cage_arena_take(arena, sites, sizeof *draft->home);
+    draft->list = cage_arena_take(arena, sites * LEVELS, sizeof *draft->list);
+    draft->mark = cage_arena_take(arena, simplices, sizeof *draft->mark);
+    draft->stack = cage_arena_take(arena, simplices, sizeof *draft->stack);
+    draft->met = cage_arena_take(arena, simplices, sizeof *draft->met);
+    size_t room = cage_arena_room(arena, sizeof *draft->word), before = arena->used, peak = arena->peak;
+    draft->room = room > 1 << 29 ? 1 << 29 : (int32_t)room;
+    draft->word = cage_arena_take(arena, (size_t)draft->room, sizeof *draft->word);
+    uint32_t *word = draft->word;
+    bool done = draft->home && draft->list && draft->mark && draft->stack && draft->met && word;
+    if (done) {
+        memset(draft->home, -1, sites * sizeof *draft->home);
+        memset(draft->mark, 0, simplices * sizeof *draft->mark);
+        bound(draft);
+        done = write(draft);
+    }
+    out->words = draft->words;
+    arena->peak = before + 4 * (size_t)out->words > peak ? before + 4 * (size_t)out->words : peak; /* words not used do not count */
+    cage_arena_release(arena, mark);
+    if (!done) {
+        arena->needed = 2 * arena->size + 4096;
+        return CAGE_ERROR_MEMORY;
+    }
+    out->word = cage_arena_take(arena, (size_t)out->words, sizeof *out->word);
+    memmove(out->word, word, (size_t)out->words * sizeof *word);
+    return CAGE_OK;
+}

@@ -1,0 +1,364 @@
+/* query: a pose to its cells, in each a place to its component, the component to its class, read from the bytes of an atlas. */
+#include "atlas.h"
+#include "body.h"
+#include "chart.h"
+#include "fibre.h"
+#include "grid.h"
+
+enum { DEEPEST = CAGE_LEVEL_MAX_2D + 1 };
+
+/* ---- words ---------------------------------------------------------------------------------------------- */
+
+/* Any place may be asked for: beyond the end all words are 0. */
+static uint32_t word(const cage_atlas *atlas, uint32_t at)
+{
+    if (at >= (uint32_t)atlas->words)
+        return 0;
+    const unsigned char *b = atlas->byte + 4 * (size_t)at;
+    return b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
+}
+
+static int32_t number(const cage_atlas *atlas, uint32_t at)
+{
+    uint32_t w = word(atlas, at);
+    return w < (uint32_t)1 << 31 ? (int32_t)w : -1 - (int32_t)~w;
+}
+
+static uint32_t side_word(const cage_atlas *atlas, int32_t side, uint32_t at)
+{
+    return word(atlas, CAGE_ATLAS_SIDE + (uint32_t)side * CAGE_SIDE_WORDS + at);
+}
+
+static cage_ball ball_at(const cage_atlas *atlas, uint32_t at)
+{
+    const uint32_t dim = (uint32_t)atlas->dim;
+    const cage_ball ball = {number(atlas, at), number(atlas, at + 1), dim == 3 ? number(atlas, at + 2) : 0, number(atlas, at + dim)};
+    return ball;
+}
+
+/* ---- opening -------------------------------------------------------------------------------------------- */
+
+/* Do count entries of that size, from that place on, lie within the atlas? */
+static bool fits(const cage_atlas *atlas, uint32_t place, uint32_t count, uint32_t size)
+{
+    return place <= (uint32_t)atlas->words && count <= ((uint32_t)atlas->words - place) / size;
+}
+
+static bool cells_are_sound(const cage_atlas *atlas)
+{
+    uint32_t first = word(atlas, CAGE_ATLAS_CELL), cells = word(atlas, CAGE_ATLAS_CELL + 1), leaves = word(atlas, CAGE_ATLAS_LEAVES);
+    uint32_t roots = atlas->dim == 2 ? 2 : 4, children = atlas->dim == 2 ? 2 : 8;
+    if (!fits(atlas, first, cells, 1) || cells < roots || leaves > cells)
+        return false;
+    for (uint32_t i = 0; i < cells; i++) {
+        uint32_t entry = word(atlas, first + i), value = entry >> 1;
+        if (entry & 1 ? value >= leaves : value <= i || value > cells - children)
+            return false;
+    }
+    return true;
+}
+
+static bool side_is_sound(const cage_atlas *atlas, int32_t side)
+{
+    uint32_t leaves = word(atlas, CAGE_ATLAS_LEAVES), nodes = side_word(atlas, side, CAGE_SIDE_NODES);
+    uint32_t classes = side_word(atlas, side, CAGE_SIDE_CLASSES), edges = side_word(atlas, side, CAGE_SIDE_EDGES);
+    uint32_t of = side_word(atlas, side, CAGE_SIDE_CLASS), row = side_word(atlas, side, CAGE_SIDE_ROW);
+    uint32_t to = side_word(atlas, side, CAGE_SIDE_TO), leaf = side_word(atlas, side, CAGE_SIDE_LEAF);
+    if (!fits(atlas, leaf, leaves, 2) || !fits(atlas, of, nodes, 1) || nodes > INT32_MAX / 2 || !fits(atlas, row, nodes + 1, 1) ||
+        !fits(atlas, to, edges, 1) || !fits(atlas, side_word(atlas, side, CAGE_SIDE_TABLE), classes, CAGE_CLASS_WORDS) || classes == 0)
+        return false;
+    bool sound = word(atlas, row) == 0 && word(atlas, row + nodes) == edges;
+    for (uint32_t i = 0; i < nodes && sound; i++)
+        sound = word(atlas, of + i) < classes && word(atlas, row + i) <= word(atlas, row + i + 1);
+    for (uint32_t i = 0; i < edges && sound; i++)
+        sound = word(atlas, to + i) < nodes;
+    for (uint32_t i = 0; i < leaves && sound; i++)
+        sound = fits(atlas, word(atlas, leaf + 2 * i), CAGE_CHART_HEAD, 1) && word(atlas, leaf + 2 * i + 1) < nodes;
+    return sound;
+}
+
+int32_t cage_atlas_open(cage_atlas *atlas, const void *bytes, size_t size)
+{
+    if (!atlas || !bytes)
+        return CAGE_ERROR_ARGUMENT;
+    cage_atlas made = {bytes, CAGE_ATLAS_HEAD, 0, 0, {0, 0}, {0, 0}, 0, {0, 0}};
+    if (size < 4 * CAGE_ATLAS_HEAD || word(&made, CAGE_ATLAS_MAGIC) != CAGE_ATLAS_MAGIC_WORD ||
+        word(&made, CAGE_ATLAS_FORMAT) != CAGE_ATLAS_FORMAT_WORD || word(&made, CAGE_ATLAS_WORDS) > INT32_MAX ||
+        word(&made, CAGE_ATLAS_WORDS) < CAGE_ATLAS_HEAD || size != 4 * (size_t)word(&made, CAGE_ATLAS_WORDS))
+        return CAGE_ERROR_ATLAS;
+    const size_t from = 4 * (CAGE_ATLAS_SUM + 2);
+    uint64_t sum = cage_atlas_sum(0, made.byte, 4 * CAGE_ATLAS_SUM);
+    sum = cage_atlas_sum(sum, made.byte + from, size - from);
+    if (word(&made, CAGE_ATLAS_SUM) != (uint32_t)sum || word(&made, CAGE_ATLAS_SUM + 1) != (uint32_t)(sum >> 32))
+        return CAGE_ERROR_ATLAS;
+    made.words = (int32_t)word(&made, CAGE_ATLAS_WORDS);
+    made.dim = number(&made, CAGE_ATLAS_DIM);
+    made.side = number(&made, CAGE_ATLAS_SIDES);
+    if ((made.dim != 2 && made.dim != 3) || made.side < CAGE_SIDE_INNER || made.side > CAGE_SIDE_BOTH || !cells_are_sound(&made))
+        return CAGE_ERROR_ATLAS;
+    made.leaves = number(&made, CAGE_ATLAS_LEAVES);
+    for (int32_t side = 0; side < 2; side++) {
+        if ((made.side >> side & 1) && !side_is_sound(&made, side))
+            return CAGE_ERROR_ATLAS;
+        made.classes[side] = (int32_t)side_word(&made, side, CAGE_SIDE_CLASSES);
+        made.nodes[side] = (int32_t)side_word(&made, side, CAGE_SIDE_NODES);
+        made.note[side] = number(&made, (uint32_t)CAGE_ATLAS_NOTE + (uint32_t)side);
+    }
+    for (int32_t set = CAGE_ATLAS_OBJECT; set <= CAGE_ATLAS_OBSTACLE; set += 2)
+        if (!fits(&made, word(&made, (uint32_t)set), word(&made, (uint32_t)set + 1), (uint32_t)made.dim + 1))
+            return CAGE_ERROR_ATLAS;
+    *atlas = made;
+    return CAGE_OK;
+}
+
+/* ---- a chart -------------------------------------------------------------------------------------------- */
+
+/* Does the closed simplex with these vertices hold the point? */
+static bool holds(const cage_atlas *atlas, uint32_t chart, uint32_t vertex, const int32_t p[3])
+{
+    const struct cage_site point = {0, p[0], p[1], p[2], 0};
+    struct cage_site site[4];
+    for (uint32_t k = 0; k <= (uint32_t)atlas->dim; k++) {
+        const cage_ball ball = ball_at(atlas, chart + word(atlas, vertex + k));
+        const struct cage_site made = {0, ball.x, ball.y, ball.z, ball.r};
+        site[k] = made;
+    }
+    for (int32_t i = 0; i <= atlas->dim; i++) {
+        const int32_t *index = atlas->dim == 2 ? CAGE_FACE_2D[i] : CAGE_FACE_3D[i];
+        const struct cage_site *face[3] = {&site[index[0]], &site[index[1]], atlas->dim == 2 ? NULL : &site[index[2]]};
+        if (cage_side(atlas->dim, face, &point) < 0)
+            return false;
+    }
+    return true;
+}
+
+/* The component at the point of the box that has this list. */
+static int32_t look_up(const cage_atlas *atlas, uint32_t chart, uint32_t list, const int32_t p[3])
+{
+    uint32_t balls = word(atlas, list) & 65535, simplices = word(atlas, list) >> 16, next = list + 2 + balls;
+    for (uint32_t i = 0; i < balls; i++) {
+        const cage_ball ball = ball_at(atlas, chart + word(atlas, list + 2 + i));
+        const struct cage_site site = {0, ball.x, ball.y, ball.z, ball.r};
+        if (cage_power(&site, p) <= 0)
+            return CAGE_COVERED;
+    }
+    for (uint32_t i = 0; i < simplices; i++, next += (uint32_t)atlas->dim + 2)
+        if (holds(atlas, chart, next + 1, p))
+            return number(atlas, next);
+    return number(atlas, list + 1);
+}
+
+/* The component of the slice at a grid point with |coordinates| <= CAGE_REACH. */
+static int32_t component_at(const cage_atlas *atlas, uint32_t chart, const int32_t p[3])
+{
+    const uint32_t dim = (uint32_t)atlas->dim;
+    for (uint32_t k = 0; k < dim; k++)
+        if (p[k] < number(atlas, chart + CAGE_CHART_LOW + k) || p[k] > number(atlas, chart + CAGE_CHART_HIGH + k))
+            return CAGE_OUTSIDE;
+    uint32_t entry = word(atlas, chart + CAGE_CHART_ROOT);
+    for (uint32_t bits = word(atlas, chart + CAGE_CHART_BITS) & 31; (entry & 3) == CAGE_CHART_SPLIT && bits > 0;) {
+        uint32_t half = 0;
+        bits--;
+        for (uint32_t k = 0; k < dim; k++)
+            half |= (((uint32_t)p[k] - word(atlas, chart + CAGE_CHART_LOW + k)) >> bits & 1) << k;
+        entry = word(atlas, chart + (entry >> 2) + half);
+    }
+    if ((entry & 3) == CAGE_CHART_LABEL)
+        return (int32_t)(entry >> 2) - 1;
+    return (entry & 3) == CAGE_CHART_LIST ? look_up(atlas, chart, chart + (entry >> 2), p) : CAGE_COVERED;
+}
+
+/* ---- the cells that hold a rotation --------------------------------------------------------------------- */
+
+/* A way down the tree of cells, one child after the other. */
+struct descent {
+    struct cage_cell cell[DEEPEST]; /* at each level the one it is at */
+    uint32_t entry[DEEPEST];        /* where the entries of it and its siblings begin */
+    int32_t index[DEEPEST];         /* which of them it is, -1: before the first */
+    int32_t depth;
+};
+
+/* The next leaf whose closed cell holds q, or -1. */
+static int32_t next_leaf(const cage_atlas *atlas, struct descent *at, const int32_t q[4])
+{
+    const struct cage_fibre *fibre = atlas->dim == 2 ? &cage_so2 : &cage_so3;
+    uint32_t first = word(atlas, CAGE_ATLAS_CELL);
+    while (at->depth >= 0) {
+        int32_t depth = at->depth, index = ++at->index[depth];
+        if (index == (depth == 0 ? fibre->roots : fibre->children)) {
+            at->depth--;
+            continue;
+        }
+        const struct cage_cell root = {0, index, {0, 0, 0}};
+        at->cell[depth] = root;
+        if (depth > 0)
+            fibre->child(&at->cell[depth - 1], index, &at->cell[depth]);
+        if (!fibre->contains(&at->cell[depth], q))
+            continue;
+        uint32_t entry = word(atlas, at->entry[depth] + (uint32_t)index);
+        if (entry & 1)
+            return (int32_t)(entry >> 1);
+        if (depth == fibre->max_level)
+            continue;
+        at->depth++;
+        at->entry[depth + 1] = first + (entry >> 1);
+        at->index[depth + 1] = -1;
+    }
+    return -1;
+}
+
+/* The class of the pivot's place on a side: on the inner side covered if it is over any cell, on the outer if over all. */
+static int32_t class_at(const cage_atlas *atlas, const int32_t q[4], const int32_t at[3], int32_t side)
+{
+    struct descent descent;
+    int32_t class = CAGE_NO_CLASS, leaf;
+    descent.depth = 0;
+    descent.index[0] = -1;
+    descent.entry[0] = word(atlas, CAGE_ATLAS_CELL);
+    while ((leaf = next_leaf(atlas, &descent, q)) >= 0) {
+        uint32_t entry = side_word(atlas, side, CAGE_SIDE_LEAF) + 2 * (uint32_t)leaf;
+        int32_t component = component_at(atlas, word(atlas, entry), at);
+        if (component < 0 && side == 0)
+            return CAGE_NO_CLASS;
+        if (component < 0)
+            continue;
+        uint32_t node = word(atlas, entry + 1) + (uint32_t)component;
+        class = (int32_t)word(atlas, side_word(atlas, side, CAGE_SIDE_CLASS) + node);
+        if (side == 1)
+            break; /* a place that is free over several is in one class */
+    }
+    return class;
+}
+
+/* ---- collisions ----------------------------------------------------------------------------------------- */
+
+/* Do any inner balls overlap at the pose (user's frame)? */
+static bool collides(const cage_atlas *atlas, const cage_pose *pose)
+{
+    uint32_t object = word(atlas, CAGE_ATLAS_OBJECT), objects = word(atlas, CAGE_ATLAS_OBJECT + 1);
+    uint32_t obstacle = word(atlas, CAGE_ATLAS_OBSTACLE), obstacles = word(atlas, CAGE_ATLAS_OBSTACLE + 1);
+    uint32_t size = (uint32_t)atlas->dim + 1;
+    struct cage_rotation rotation;
+    cage_rotation_of(pose->q, &rotation);
+    for (uint32_t i = 0; i < objects; i++) {
+        const cage_ball y = ball_at(atlas, object + size * i);
+        const int32_t from[3] = {y.x, y.y, y.z};
+        int32_t at[3];
+        cage_rotate(&rotation, from, at);
+        for (uint32_t j = 0; j < obstacles; j++) {
+            const cage_ball x = ball_at(atlas, obstacle + size * j);
+            const int64_t apart[3] = {(int64_t)at[0] + pose->x[0] - x.x, (int64_t)at[1] + pose->x[1] - x.y,
+                                      (int64_t)at[2] + pose->x[2] - x.z}; /* < 2^30, off by less than 1 */
+            int64_t square = apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2], reach = (int64_t)x.r + y.r + 1;
+            if (square >= reach * reach)
+                continue;
+            if (reach >= 2 && square < (reach - 2) * (reach - 2))
+                return true;
+            if (cage_pair_collides(pose, &y, &x))
+                return true;
+        }
+    }
+    return false;
+}
+
+/* ---- questions ------------------------------------------------------------------------------------------ */
+
+static int32_t check(const cage_atlas *atlas, const cage_pose *pose, int32_t at[3])
+{
+    if (!atlas || !pose)
+        return CAGE_ERROR_ARGUMENT;
+    int32_t error = cage_pose_check(atlas->dim, pose), reach = atlas->dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
+    if (error != CAGE_OK)
+        return error;
+    int32_t pivot[3];
+    for (uint32_t k = 0; k < 3; k++)
+        pivot[k] = number(atlas, CAGE_ATLAS_PIVOT + k);
+    cage_pose_pivot(pose, pivot, at);
+    for (int32_t k = 0; k < 3; k++)
+        if (at[k] < -reach || at[k] > reach)
+            return CAGE_ERROR_RANGE;
+    return CAGE_OK;
+}
+
+int32_t cage_atlas_locate(const cage_atlas *atlas, const cage_pose *pose, int32_t side)
+{
+    int32_t at[3], error = check(atlas, pose, at);
+    if (error == CAGE_OK && ((side != CAGE_SIDE_INNER && side != CAGE_SIDE_OUTER) || !(atlas->side & side)))
+        error = CAGE_ERROR_ARGUMENT;
+    return error != CAGE_OK ? error : class_at(atlas, pose->q, at, side == CAGE_SIDE_OUTER);
+}
+
+/* The classes of a pose on both sides; CAGE_IN_COLLISION, CAGE_OK, or an error. */
+static int32_t place(const cage_atlas *atlas, const cage_pose *pose, int32_t class[2])
+{
+    int32_t at[3], error = check(atlas, pose, at);
+    class[0] = class[1] = CAGE_NO_CLASS;
+    if (error != CAGE_OK)
+        return error;
+    if (atlas->side & CAGE_SIDE_INNER) {
+        class[0] = class_at(atlas, pose->q, at, 0);
+        if (class[0] == CAGE_NO_CLASS)
+            return CAGE_IN_COLLISION;
+    }
+    if (atlas->side & CAGE_SIDE_OUTER)
+        class[1] = class_at(atlas, pose->q, at, 1);
+    return class[1] == CAGE_NO_CLASS && collides(atlas, pose) ? CAGE_IN_COLLISION : CAGE_OK;
+}
+
+int32_t cage_atlas_ask(const cage_atlas *atlas, const cage_pose *start, const cage_pose *goal)
+{
+    int32_t from[2], to[2] = {CAGE_OUTSIDE, CAGE_OUTSIDE};
+    int32_t answer = place(atlas, start, from);
+    if (answer == CAGE_OK && goal)
+        answer = place(atlas, goal, to);
+    if (answer != CAGE_OK)
+        return answer;
+    if (from[0] != CAGE_NO_CLASS && to[0] != CAGE_NO_CLASS && from[0] != to[0])
+        return goal ? CAGE_DISCONNECTED : CAGE_CAGED;
+    if (from[1] != CAGE_NO_CLASS && from[1] == to[1])
+        return goal ? CAGE_CONNECTED : CAGE_FREE;
+    return CAGE_UNDEFINED;
+}
+
+/* The representative rotation of the leaf with that number: its cell is looked for in the whole tree. */
+static void rotation_of(const cage_atlas *atlas, int32_t leaf, int32_t q[4])
+{
+    const struct cage_fibre *fibre = atlas->dim == 2 ? &cage_so2 : &cage_so3;
+    uint32_t first = word(atlas, CAGE_ATLAS_CELL), cells = word(atlas, CAGE_ATLAS_CELL + 1), at = 0;
+    int32_t way[DEEPEST], depth = 0;
+    while (at < cells && word(atlas, first + at) != ((uint32_t)leaf << 1 | 1))
+        at++;
+    for (uint32_t roots = (uint32_t)fibre->roots; at >= roots && depth < DEEPEST - 1; depth++) {
+        uint32_t parent = 0, child = 0;
+        for (parent = 0; parent < at; parent++) {
+            child = word(atlas, first + parent) >> 1;
+            if (!(word(atlas, first + parent) & 1) && child <= at && at < child + (uint32_t)fibre->children)
+                break;
+        }
+        way[depth] = (int32_t)(at - child);
+        at = parent;
+    }
+    struct cage_cell cell = {0, (int32_t)at, {0, 0, 0}};
+    while (depth > 0)
+        fibre->child(&cell, way[--depth], &cell);
+    fibre->representative(&cell, q);
+}
+
+int32_t cage_atlas_class(const cage_atlas *atlas, int32_t side, int32_t class_number, cage_class *out)
+{
+    if (!atlas || !out || (side != CAGE_SIDE_INNER && side != CAGE_SIDE_OUTER) || !(atlas->side & side) || class_number < 0 ||
+        class_number >= atlas->classes[side == CAGE_SIDE_OUTER])
+        return CAGE_ERROR_ARGUMENT;
+    uint32_t at = side_word(atlas, side == CAGE_SIDE_OUTER, CAGE_SIDE_TABLE) + (uint32_t)class_number * CAGE_CLASS_WORDS;
+    cage_class made = {number(atlas, at + CAGE_CLASS_CELLS), number(atlas, at + CAGE_CLASS_NODES), {0, 0, 0}, {0, 0, 0},
+                       word(atlas, at + CAGE_CLASS_LEAF) > 0, {{0, 0, 0}, {1, 0, 0, 0}}};
+    for (uint32_t k = 0; k < 3; k++) {
+        made.low[k] = number(atlas, at + CAGE_CLASS_LOW + k);
+        made.high[k] = number(atlas, at + CAGE_CLASS_HIGH + k);
+        made.pose.x[k] = number(atlas, at + CAGE_CLASS_AT + k);
+    }
+    if (made.known)
+        rotation_of(atlas, number(atlas, at + CAGE_CLASS_LEAF) - 1, made.pose.q);
+    *out = made;
+    return CAGE_OK;
+}

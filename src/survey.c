@@ -1,0 +1,349 @@
+/* survey: builds and glues the slices of all cells, cuts those where the two sides disagree, and joins nodes into classes.
+ *
+ * That is Algorithms 1 to 4 of the paper, with exact gluing. Of a slice its charts, extents and edges are kept; the slice itself
+ * as long as the store holds it. */
+#include "survey.h"
+#include "box.h"
+
+#include <string.h>
+
+/* ---- the beginning -------------------------------------------------------------------------------------- */
+
+enum { CELLS_2D = 2048, CELLS_3D = 8192 };
+
+/* All cells down to a level, or more than 2^24. */
+static int64_t cells_down_to(int32_t dim, int32_t level)
+{
+    int64_t of_level = dim == 2 ? 2 : 4, cells = of_level;
+    for (int32_t i = 0; i < level && cells <= 1 << 24; i++) {
+        of_level *= dim == 2 ? 2 : 8;
+        cells += of_level;
+    }
+    return cells;
+}
+
+static int32_t limits_of(int32_t dim, const cage_plan *plan, cage_limits *limits)
+{
+    int32_t finest = dim == 2 ? CAGE_LEVEL_MAX_2D : CAGE_LEVEL_MAX_3D;
+    if (plan->level < -1 || plan->level > finest || plan->max_cells < 0 || plan->max_cells > 1 << 24)
+        return CAGE_ERROR_ARGUMENT;
+    int64_t cells = plan->level < 0 ? (dim == 2 ? CELLS_2D : CELLS_3D) : cells_down_to(dim, plan->level);
+    cells = plan->max_cells > 0 ? plan->max_cells : cells;
+    if (cells > 1 << 24)
+        return CAGE_ERROR_ARGUMENT;
+    cage_limits_default(limits, dim);
+    limits->side = plan->side;
+    limits->start_level = plan->level;
+    limits->max_level = finest;
+    limits->max_cells = (int32_t)cells;
+    return CAGE_OK;
+}
+
+void cage_plan_default(cage_plan *plan)
+{
+    const cage_plan usual = {CAGE_SIDE_BOTH, -1, 0, {0, 0}};
+    if (plan)
+        *plan = usual;
+}
+
+size_t cage_survey_size(const cage_scene *scene, const cage_plan *plan)
+{
+    cage_limits limits;
+    if (cage_scene_check(scene) != CAGE_OK || !plan || limits_of(scene->dim, plan, &limits) != CAGE_OK)
+        return 0;
+    limits.side = CAGE_SIDE_INNER; /* one search */
+    size_t one = cage_prove_size(scene, &limits), cells = (size_t)limits.max_cells + CAGE_CELL_ROOT;
+    return one == 0 ? 0 : sizeof(struct cage_survey) + 4 * one + 2 * CAGE_SIDES * cells * sizeof(struct cage_sheet);
+}
+
+int32_t cage_survey_begin(cage_survey **survey, const cage_scene *scene, const cage_plan *plan, void *memory, size_t bytes)
+{
+    struct cage_arena arena;
+    cage_limits limits;
+    if (!survey || !plan || (!memory && bytes))
+        return CAGE_ERROR_ARGUMENT;
+    int32_t error = cage_scene_check(scene);
+    if (error == CAGE_OK)
+        error = limits_of(scene->dim, plan, &limits);
+    if (error != CAGE_OK)
+        return error;
+    cage_arena_init(&arena, memory, bytes);
+    struct cage_survey *made = cage_arena_take(&arena, 1, sizeof *made);
+    if (!made)
+        return CAGE_ERROR_MEMORY;
+    memset(made, 0, sizeof *made);
+    made->plan = *plan;
+    error = cage_proof_begin_all(&made->proof, scene, &limits, arena.base + arena.used, arena.size - arena.used);
+    for (int32_t side = 0; side < CAGE_SIDES && error == CAGE_OK; side++) {
+        struct cage_graph *graph = &made->proof->graph;
+        made->sheet[side] = cage_arena_take(graph->arena, (size_t)graph->capacity, sizeof *made->sheet[side]);
+        if (!made->sheet[side])
+            return CAGE_ERROR_MEMORY;
+        memset(made->sheet[side], 0, (size_t)graph->capacity * sizeof *made->sheet[side]);
+    }
+    if (error != CAGE_OK)
+        return error;
+    made->cell = cage_graph_leaf(&made->proof->graph, -1);
+    made->after = CAGE_CELL_GOAL;
+    *survey = made;
+    return CAGE_OK;
+}
+
+/* ---- a cell --------------------------------------------------------------------------------------------- */
+
+static bool is_wanted(const struct cage_survey *survey, int32_t side) { return survey->plan.side >> side & 1; }
+
+static int32_t measure(struct cage_survey *survey, const struct cage_slice *slice, struct cage_extent **out)
+{
+    struct cage_extent *extent = cage_arena_take(&survey->proof->arena, (size_t)slice->regions, sizeof *extent);
+    if (!extent)
+        return CAGE_ERROR_MEMORY;
+    memset(extent, 0, (size_t)slice->regions * sizeof *extent);
+    for (int32_t k = 0; k < slice->regions; k++) {
+        const struct cage_region *region = &slice->region[k];
+        extent[k].known = region->known;
+        for (int32_t i = 0; i < 3; i++) {
+            extent[k].low[i] = k == CAGE_OUTSIDE ? 0 : INT32_MAX;
+            extent[k].high[i] = k == CAGE_OUTSIDE ? 0 : INT32_MIN;
+            extent[k].at[i] = region->known ? region->point[i] : 0;
+        }
+    }
+    int32_t reach = slice->t.dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
+    for (int32_t s = 0; s < slice->t.simplices; s++) {
+        struct cage_box box;
+        if (slice->label[s] <= CAGE_OUTSIDE)
+            continue;
+        bool boxed = cage_box_make(slice, &s, 1, &box);
+        struct cage_extent *e = &extent[slice->label[s]];
+        for (int32_t i = 0; i < slice->t.dim; i++) { /* a bounded component lies among the balls, within CAGE_REACH */
+            int64_t low = boxed && box.low[i] > -reach ? box.low[i] : -reach, high = boxed && box.high[i] < reach ? box.high[i] : reach;
+            e->low[i] = low < e->low[i] ? (int32_t)low : e->low[i];
+            e->high[i] = high > e->high[i] ? (int32_t)high : e->high[i];
+        }
+        for (int32_t i = slice->t.dim; i < 3; i++)
+            e->low[i] = e->high[i] = 0;
+    }
+    *out = extent;
+    return CAGE_OK;
+}
+
+/* Build the slice, keep its chart and where its components lie. */
+static int32_t build(struct cage_survey *survey)
+{
+    struct cage_proof *proof = survey->proof;
+    struct cage_sheet *sheet = &survey->sheet[survey->side][survey->cell];
+    const struct cage_slice *slice;
+    struct cage_chart chart;
+    int32_t error = cage_proof_slice(proof, survey->side, survey->cell, &slice);
+    if (error != CAGE_OK)
+        return error;
+    size_t mark = proof->scratch.used;
+    error = cage_chart_make(&proof->scratch, slice, &chart);
+    if (error != CAGE_OK)
+        return error;
+    uint32_t *word = cage_arena_take(&proof->arena, (size_t)chart.words, sizeof *word);
+    if (word)
+        memcpy(word, chart.word, (size_t)chart.words * sizeof *word);
+    cage_arena_release(&proof->scratch, mark);
+    error = word ? measure(survey, slice, &sheet->extent) : CAGE_ERROR_MEMORY;
+    if (error == CAGE_OK) {
+        sheet->chart.words = chart.words;
+        sheet->chart.word = word;
+    }
+    return error;
+}
+
+static int32_t glue(struct cage_survey *survey, int32_t other)
+{
+    struct cage_proof *proof = survey->proof;
+    const struct cage_slice *c, *d;
+    struct cage_touch *touch;
+    int32_t count, mixed;
+    int32_t error = cage_proof_slices(proof, survey->side, survey->cell, other, &c, &d);
+    if (error != CAGE_OK)
+        return error;
+    size_t mark = proof->scratch.used;
+    error = cage_glue(&proof->scratch, c, d, CAGE_ALL, &touch, &count, &mixed);
+    if (error == CAGE_OK)
+        error = cage_graph_add_gluing(&proof->graph, survey->side, survey->cell, other, CAGE_ALL, touch, count);
+    proof->result.gluings[survey->side]++;
+    proof->result.mixtures[survey->side] += mixed;
+    cage_arena_release(&proof->scratch, mark);
+    return error;
+}
+
+/* The next neighbour that was built, and is not glued with the leaf; -1: no more. */
+static int32_t next_neighbour(const struct cage_survey *survey)
+{
+    const struct cage_graph *graph = &survey->proof->graph;
+    const struct cage_node *outside = graph->cell[survey->cell].facts[survey->side].node;
+    int32_t next = cage_graph_neighbour(graph, survey->cell, survey->after);
+    while (next >= 0 && (!survey->sheet[survey->side][next].chart.word || cage_graph_is_glued(outside, next)))
+        next = cage_graph_neighbour(graph, survey->cell, next);
+    return next;
+}
+
+static void go_on(struct cage_survey *survey)
+{
+    survey->after = CAGE_CELL_GOAL;
+    if (++survey->side == CAGE_SIDES) {
+        survey->side = 0;
+        survey->cell = cage_graph_leaf(&survey->proof->graph, survey->cell);
+    }
+}
+
+/* ---- where the sides disagree --------------------------------------------------------------------------- */
+
+enum { NONE = -1, MANY = -2 };
+
+static void see(int32_t *seen, int32_t class)
+{
+    *seen = *seen == NONE || *seen == class ? class : MANY;
+}
+
+/* The outer classes that lie in each inner class, and in each component of a cell: none, one, or many. */
+static void compare(const struct cage_survey *survey, int32_t cell, int32_t *of_class, int32_t *of_node)
+{
+    const struct cage_facts *facts = survey->proof->graph.cell[cell].facts;
+    const struct cage_classes *inner = &survey->classes[CAGE_INNER], *outer = &survey->classes[CAGE_OUTER];
+    for (int32_t k = 0; k < facts[CAGE_OUTER].nodes; k++) {
+        int32_t inside = k == CAGE_OUTSIDE ? CAGE_OUTSIDE : facts[CAGE_OUTER].node[k].inside;
+        if (inside < 0)
+            continue;
+        int32_t node = inner->first[cell] + inside, class = outer->of[outer->first[cell] + k];
+        see(&of_class[inner->of[node]], class);
+        see(&of_node[node], class);
+    }
+}
+
+/* How much a cell needs to be cut. */
+enum { BRIDGE = 0, EMPTY, EVEN, NEEDS };
+
+/* An inner component, of a class that joins several outer ones, does not lie in just one of these: BRIDGE. No outer component
+ * lies in it: EMPTY. */
+static int32_t need_of(const struct cage_survey *survey, int32_t cell, const int32_t *of_class, const int32_t *of_node)
+{
+    const struct cage_classes *inner = &survey->classes[CAGE_INNER];
+    int32_t need = EVEN;
+    for (int32_t k = 0; k < survey->proof->graph.cell[cell].facts[CAGE_INNER].nodes; k++) {
+        int32_t node = inner->first[cell] + k;
+        if (of_node[node] < 0 && of_class[inner->of[node]] == MANY)
+            return BRIDGE;
+        if (of_node[node] == NONE)
+            need = EMPTY;
+    }
+    return need;
+}
+
+/* Cut the leaves of the greatest need that there is, the coarsest of them, as many as may be. How many; or an error. */
+static int32_t refine(struct cage_survey *survey)
+{
+    struct cage_graph *graph = &survey->proof->graph;
+    struct cage_arena *scratch = &survey->proof->scratch;
+    const struct cage_classes *inner = &survey->classes[CAGE_INNER];
+    size_t mark = scratch->used;
+    int32_t *of_class = cage_arena_take(scratch, (size_t)inner->count, sizeof *of_class);
+    int32_t *of_node = cage_arena_take(scratch, (size_t)inner->nodes, sizeof *of_node);
+    int32_t *chosen = cage_arena_take(scratch, (size_t)graph->capacity, sizeof *chosen);
+    int32_t count = 0, cut = 0, most = NEEDS, level = 0;
+    bool room = of_class && of_node && chosen;
+    for (int32_t i = 0; room && i < inner->count; i++)
+        of_class[i] = NONE;
+    for (int32_t i = 0; room && i < inner->nodes; i++)
+        of_node[i] = NONE;
+    for (int32_t cell = -1; room && (cell = cage_graph_leaf(graph, cell)) >= 0;)
+        compare(survey, cell, of_class, of_node);
+    for (int32_t cell = -1; room && (cell = cage_graph_leaf(graph, cell)) >= 0;) {
+        int32_t need = need_of(survey, cell, of_class, of_node), here = graph->cell[cell].cell.level;
+        if (here == graph->fibre->max_level || need > most || (need == most && here > level))
+            continue;
+        count = need < most || here < level ? 0 : count;
+        most = need;
+        level = here;
+        chosen[count++] = cell;
+    }
+    while (cut < count && cage_graph_refine(graph, chosen[cut]))
+        cut++;
+    cage_arena_release(scratch, mark);
+    return room ? cut : CAGE_ERROR_MEMORY;
+}
+
+/* ---- steps ---------------------------------------------------------------------------------------------- */
+
+static int32_t finish_round(struct cage_survey *survey)
+{
+    int32_t cut = 0;
+    for (int32_t side = 0; side < CAGE_SIDES; side++) {
+        int32_t error = is_wanted(survey, side) ? cage_classes_make(survey, side) : CAGE_OK;
+        if (error != CAGE_OK)
+            return error;
+    }
+    if (survey->plan.max_cells > 0 && survey->plan.side == CAGE_SIDE_BOTH)
+        cut = refine(survey);
+    if (cut < 0)
+        return cut;
+    for (int32_t side = 0; side < CAGE_SIDES && cut == 0; side++) {
+        int32_t error = is_wanted(survey, side) ? cage_classes_sum(survey, side) : CAGE_OK;
+        if (error != CAGE_OK)
+            return error;
+    }
+    survey->done = cut == 0;
+    survey->cell = survey->done ? -1 : cage_graph_leaf(&survey->proof->graph, -1);
+    return CAGE_OK;
+}
+
+static int32_t step(struct cage_survey *survey)
+{
+    for (; survey->cell >= 0; go_on(survey)) {
+        if (!is_wanted(survey, survey->side))
+            continue;
+        if (!survey->sheet[survey->side][survey->cell].chart.word)
+            return build(survey);
+        int32_t next = next_neighbour(survey);
+        if (next >= 0) {
+            int32_t error = glue(survey, next);
+            survey->after = error == CAGE_OK ? next : survey->after;
+            return error;
+        }
+    }
+    return finish_round(survey);
+}
+
+static void sum_up(struct cage_survey *survey)
+{
+    struct cage_survey_result *result = &survey->result;
+    const struct cage_proof *proof = survey->proof;
+    result->level = proof->graph.level;
+    result->cells = proof->graph.cells - CAGE_CELL_ROOT;
+    result->leaves = 0;
+    for (int32_t cell = -1; (cell = cage_graph_leaf(&proof->graph, cell)) >= 0;)
+        result->leaves++;
+    for (int32_t side = 0; side < CAGE_SIDES; side++) {
+        result->slices[side] = proof->result.slices[side];
+        result->gluings[side] = proof->result.gluings[side];
+        result->mixtures[side] = proof->result.mixtures[side];
+        result->balls[side] = proof->result.balls[side];
+        result->inserted[side] = proof->result.inserted[side];
+        result->classes[side] = survey->done ? survey->classes[side].count : 0;
+    }
+    result->peak_bytes = sizeof *survey + proof->arena.peak + proof->scratch.peak;
+    result->needed_bytes = proof->error == CAGE_ERROR_MEMORY ? sizeof *survey + cage_proof_needed(proof) : 0;
+    result->atlas_bytes = survey->done ? cage_survey_atlas(survey, NULL, 0) : 0;
+}
+
+int32_t cage_survey_run(cage_survey *survey, int64_t steps)
+{
+    if (!survey)
+        return CAGE_ERROR_ARGUMENT;
+    for (; steps > 0 && !survey->done && survey->proof->error == CAGE_OK; steps--) {
+        survey->proof->error = step(survey);
+        survey->result.steps++;
+    }
+    sum_up(survey);
+    return survey->proof->error != CAGE_OK ? survey->proof->error : survey->done;
+}
+
+const cage_survey_result *cage_survey_result_of(const cage_survey *survey)
+{
+    return survey ? &survey->result : NULL;
+}
