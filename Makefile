@@ -51,7 +51,7 @@ demo: build/cage ## prove the example scenes: verdicts as a table, pictures in b
 # ---- tests: each tests/test_*.c is a program of its own, with the helpers beside it ----------------
 
 TESTS   = $(sort $(wildcard tests/test_*.c))
-HELPERS = $(filter-out tests/soak.c tests/soak_space.c $(TESTS),$(sort $(wildcard tests/*.c)))
+HELPERS = $(filter-out $(wildcard tests/soak*.c) $(TESTS),$(sort $(wildcard tests/*.c)))
 TEST_I  = -iquote src -iquote tests -Iinclude
 SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all
 
@@ -87,9 +87,13 @@ build/prove_in_c: examples/prove_in_c.c build/libcage.a
 build/soak build/soak_space: build/%: tests/%.c $(HELPERS) $(HEADERS) build/test/libhelpers.a
 	$(CC) -std=c99 -D_POSIX_C_SOURCE=200809L $(CFLAGS) $(TEST_I) $< build/test/libhelpers.a -lm -o $@
 
-soak: build/soak build/soak_space ## hunt for contradictions: build/soak FROM TO, build/soak_space FROM TO
+build/soak_atlas: tests/soak_atlas.c $(HELPERS) $(HEADERS) build/sanitized/libhelpers.a
+	$(CC) -std=c99 -D_POSIX_C_SOURCE=200809L $(CFLAGS) $(SANITIZE) $(TEST_I) $< build/sanitized/libhelpers.a -lgmp -lm -o $@
+
+soak: build/soak build/soak_space build/soak_atlas ## hunt for contradictions and crashes: build/soak FROM TO, likewise _space, _atlas
 	build/soak 1 2000
 	build/soak_space 1 300
+	build/soak_atlas 1 500
 
 # ---- benchmarks ------------------------------------------------------------------------------------
 

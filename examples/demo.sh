@@ -98,7 +98,7 @@ space peanut chambers_wide CONNECTED left_chamber right_chamber outer
 
 # How many large components (present in half of the cells or more) the inner slices have, as cells get finer.
 echo
-printf '%-8s %9s %9s %9s %9s  %s\n' 'walls' 'level 2' 'level 3' 'level 4' 'level 5' 'together: large components of the inner slices, by cage atlas'
+printf '%-8s %9s %9s %9s %9s  %s\n' walls 'level 2' 'level 3' 'level 4' 'level 5' 'together (large components of the inner slices)'
 for radius in 4 10 15; do
     line=$(printf 'R = %-4s' $radius) total=0
     for level in 2 3 4 5; do

@@ -191,6 +191,26 @@ const cage_result *cage_prove_result(const cage_proof *proof);
 int32_t cage_prove_region(cage_proof *proof, const int32_t origin[3], int32_t pitch,
                           const int32_t count[3], uint8_t *mask);
 
+/* ---- margin -------------------------------------------------------------------------------------- */
+
+/* By how much every radius must shrink (negative: may grow) for the answer to change, the balls smaller than that gone:
+ * shrunk by `closed` the question is answered CAGED, DISCONNECTED or IN_COLLISION, by `open` FREE or CONNECTED. */
+typedef struct cage_margin {
+    int32_t closed;   /* the largest found, */
+    int32_t open;     /* and the smallest; what lies between was not asked or not decided */
+    int32_t proofs;   /* how many it took */
+    int32_t bounded;  /* 1; 0: grown as far as the grid allows it was not closed, and `closed` says nothing */
+    int32_t known;    /* 1: narrow is set */
+    int32_t pivot[3]; /* of the object, as in cage_result */
+    cage_pose narrow; /* on the path found for `open`: where the balls as given come closest, or overlap most (x is where the
+                         pivot is) */
+} cage_margin;
+
+/* Find it with so many proofs by bisection, and as many as the first bounds take. The number that ranks grasps: how tight a cage
+ * is. All memory is scratch. Errors of cage_prove_begin and cage_prove_run; then *out is not written. */
+int32_t cage_margin_find(const cage_scene *scene, const cage_pose *start, const cage_pose *goal, const cage_limits *limits,
+                         int32_t rounds, void *memory, size_t bytes, cage_margin *out);
+
 /* ---- paths --------------------------------------------------------------------------------------- */
 
 /* A path is a sequence of poses of the pivot: the object's ball (y, r) sits at x + R(q)(y - pivot).
@@ -217,7 +237,7 @@ typedef struct cage_plan {
     int32_t level;     /* of all cells to begin with: 0 to CAGE_LEVEL_MAX, or -1: chosen from the balls */
     int32_t max_cells; /* 0: that is all; else, with both sides, cells are cut until no more than that would be made: those first
                           where the sides disagree on what is connected, of these the coarsest */
-    int32_t note[2];   /* the caller's: see cage_atlas_note */
+    int32_t note[2];   /* the caller's: comes back in cage_atlas */
 } cage_plan;
 
 /* Index 0 is the inner side, 1 the outer. */
@@ -248,8 +268,8 @@ size_t cage_survey_size(const cage_scene *scene, const cage_plan *plan);
 /* The scene's balls are read until the atlas was written; memory (any alignment) is used until then. */
 int32_t cage_survey_begin(cage_survey **survey, const cage_scene *scene, const cage_plan *plan, void *memory, size_t bytes);
 
-/* Do at most that many steps. 1: finished, 0: more to do, or an error. The atlas does not depend on how they are portioned, nor on
- * the block. */
+/* Do at most that many steps. 1: finished, 0: more to do, or an error. The atlas does not depend on how they are portioned,
+ * nor on the block. */
 int32_t cage_survey_run(cage_survey *survey, int64_t steps);
 
 const cage_survey_result *cage_survey_result_of(const cage_survey *survey);
@@ -268,6 +288,7 @@ typedef struct cage_atlas {
     int32_t classes[2]; /* on the inner side and on the outer; class 0 is the outside's */
     int32_t nodes[2];   /* (cell, component) pairs */
     int32_t leaves;     /* cells */
+    int32_t pivot[3];   /* the point of the object that rotations are about */
     int32_t note[2];
 } cage_atlas;
 
@@ -286,7 +307,8 @@ int32_t cage_atlas_open(cage_atlas *atlas, const void *bytes, size_t size);
 
 /* What is proved about the start (goal null), or start and goal, user's frame: a verdict, exact on the borders of cells as
  * well, or an error. What cage_prove_begin with any limits answers is never another one, but one of both may be UNDEFINED.
- * Reads some hundred words of the atlas, and uses less than 2 KB of stack. */
+ * Reads as a rule a few hundred words of the atlas, 20 000 at most (and the balls, where neither side tells whether they
+ * overlap), and takes less than 2 KB of stack. */
 int32_t cage_atlas_ask(const cage_atlas *atlas, const cage_pose *start, const cage_pose *goal);
 
 /* The class of a pose on one side, or CAGE_NO_CLASS where balls cover it: on the inner side it then collides. */

@@ -44,6 +44,40 @@ static void put_balls(struct pen *pen, int32_t head, int32_t dim, const cage_bal
     }
 }
 
+/* By x, then whatever else they have, so that the order is that of the set: heap sort (Williams 1964). */
+static bool is_before(const cage_ball *a, const cage_ball *b)
+{
+    if (a->x != b->x)
+        return a->x < b->x;
+    if (a->y != b->y)
+        return a->y < b->y;
+    return a->z != b->z ? a->z < b->z : a->r < b->r;
+}
+
+static void sift(cage_ball *ball, int32_t at, int32_t count)
+{
+    cage_ball moved = ball[at];
+    for (int32_t child; (child = 2 * at + 1) < count; at = child) {
+        child += child + 1 < count && is_before(&ball[child], &ball[child + 1]);
+        if (!is_before(&moved, &ball[child]))
+            break;
+        ball[at] = ball[child];
+    }
+    ball[at] = moved;
+}
+
+void cage_atlas_sort(cage_ball *ball, int32_t count)
+{
+    for (int32_t i = count / 2; i-- > 0;)
+        sift(ball, i, count);
+    while (count > 1) {
+        cage_ball last = ball[--count];
+        ball[count] = ball[0];
+        ball[0] = last;
+        sift(ball, 0, count);
+    }
+}
+
 /* The graph's cells but for start and goal; leaves are numbered in the order of the tree. */
 static void put_cells(struct pen *pen, const struct cage_graph *graph)
 {
@@ -59,7 +93,10 @@ static void put_cells(struct pen *pen, const struct cage_graph *graph)
 
 /* ---- a side --------------------------------------------------------------------------------------------- */
 
-static bool is_live(const struct cage_graph *graph, const struct cage_edge *edge) { return graph->cell[edge->to->cell].child == 0; }
+static bool is_live(const struct cage_graph *graph, const struct cage_edge *edge)
+{
+    return graph->cell[edge->to->cell].child == 0;
+}
 
 static void put_leaves(struct pen *pen, const struct cage_survey *survey, int32_t side, uint32_t head)
 {
@@ -148,7 +185,11 @@ static void put_all(struct pen *pen, const struct cage_survey *survey)
     for (uint32_t i = 0; i < 2; i++)
         put_at(pen, CAGE_ATLAS_NOTE + i, (uint32_t)survey->plan.note[i]);
     put_balls(pen, CAGE_ATLAS_OBJECT, scene->dim, scene->object.inner, scene->object.inner_count);
-    put_balls(pen, CAGE_ATLAS_OBSTACLE, scene->dim, scene->obstacles.inner, scene->obstacles.inner_count);
+    put_balls(pen, CAGE_ATLAS_OBSTACLE, scene->dim, survey->obstacle, scene->obstacles.inner_count);
+    int32_t largest = 0;
+    for (int32_t i = 0; i < scene->obstacles.inner_count; i++)
+        largest = survey->obstacle[i].r > largest ? survey->obstacle[i].r : largest;
+    put_at(pen, CAGE_ATLAS_LARGEST, (uint32_t)largest);
     put_cells(pen, &proof->graph);
     for (int32_t side = 0; side < CAGE_SIDES; side++)
         put_side(pen, survey, side);

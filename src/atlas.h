@@ -15,12 +15,13 @@ enum {
     CAGE_ATLAS_PIVOT = 7,    /* 3 words */
     CAGE_ATLAS_NOTE = 10,    /* 2 words: cage_plan.note */
     CAGE_ATLAS_OBJECT = 12,  /* the object's inner balls: place, count; each dim + 1 words, centre and radius */
-    CAGE_ATLAS_OBSTACLE = 14,
+    CAGE_ATLAS_OBSTACLE = 14, /* likewise, by x in rising order */
     CAGE_ATLAS_CELL = 16,    /* the tree of cells: place, count; the roots, then the children of each cell that was cut: twice
                                 the number of the first of these, or twice the number of the leaf plus 1 */
     CAGE_ATLAS_LEAVES = 18,
     CAGE_ATLAS_SIDE = 19,    /* two tables of CAGE_SIDE_WORDS words, inner and outer */
-    CAGE_ATLAS_HEAD = 37
+    CAGE_ATLAS_LARGEST = 37, /* the largest radius among them */
+    CAGE_ATLAS_HEAD = 38
 };
 
 /* A side: places, and how many. */
@@ -52,5 +53,8 @@ enum { CAGE_ATLAS_MAGIC_WORD = 0x65676163, CAGE_ATLAS_FORMAT_WORD = 1 };
 /* The cyclic redundancy check CRC-64/XZ, of all bytes given so far; first of none: 0. It notices every error within 64 bits, and
  * any other but for one in 2^64. */
 uint64_t cage_atlas_sum(uint64_t sum, const unsigned char *byte, size_t count);
+
+/* Sort balls by x. */
+void cage_atlas_sort(cage_ball *ball, int32_t count);
 
 #endif

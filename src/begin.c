@@ -82,8 +82,8 @@ static uint64_t work_bytes(const cage_scene *scene)
     return (scene->dim == 2 ? 600 : 1400) * (inner > outer ? inner : outer) + 32768;
 }
 
-/* What is left of the block is shared out: a quarter for facts (half, when all of them are kept); two thirds of the rest to work in,
- * or as much as that ever takes and an eighth; and what then is left to hold slices. */
+/* What is left of the block is shared out: a quarter for facts (half, when all of them are kept); two thirds of the rest to
+ * work in, or as much as that ever takes and an eighth; and what then is left to hold slices. */
 enum { FACTS_PART = 4, WORK_PART = 2, ALL_FACTS_PART = 2, ALL_WORK_PART = 3, LEAST_WORK_PART = 8, WORK_TIMES = 4 };
 
 static size_t facts_part(const struct cage_proof *proof) { return proof->all ? ALL_FACTS_PART : FACTS_PART; }

@@ -22,6 +22,15 @@ struct frame {
     int32_t left;  /* halves to do */
     const int32_t *site; /* those that matter */
     int32_t sites;
+    const int32_t *open; /* free simplices near it, as numbers of their bounds */
+    int32_t opens;
+};
+
+/* A free simplex, the box around it, its component or PHANTOM. */
+struct bounds {
+    int32_t low[3], high[3];
+    int32_t simplex;
+    int32_t label;
 };
 
 struct draft {
@@ -32,11 +41,11 @@ struct draft {
     int32_t words, room;
     int32_t *home;  /* of each site: the word where it is, or NO_WORD */
     int32_t *list;  /* LEVELS lists of sites */
-    int32_t *mark;  /* of each simplex: the last flood that saw it */
-    int32_t *stack; /* simplices */
-    int32_t *met;   /* free simplices that meet the box */
-    int32_t floods;
-    int32_t near; /* a simplex near the last box */
+    struct bounds *opening; /* all free simplices */
+    int32_t openings;
+    int32_t *open; /* LEVELS lists of them */
+    int32_t *met;  /* those that meet the last box */
+    int32_t near;  /* a simplex near the last box */
     int32_t known[HASHES]; /* words where lists begin, by a hash; 0: none */
     uint32_t making[LONGEST];
 };
@@ -51,23 +60,6 @@ static int32_t add_words(struct draft *draft, int32_t count)
 }
 
 /* ---- which free simplices meet a box ------------------------------------------------------------------------ */
-
-static bool bounds_meet(const struct draft *draft, int32_t s, const struct cage_box *box)
-{
-    const struct cage_triangulation *t = draft->t;
-    for (int32_t k = 0; k < t->dim; k++) {
-        int32_t least = INT32_MAX, most = INT32_MIN;
-        for (int32_t i = 0; i <= t->dim; i++) {
-            const struct cage_site *site = &t->site[t->simplex[s].v[i]];
-            int32_t at = k == 0 ? site->x : k == 1 ? site->y : site->z;
-            least = at < least ? at : least;
-            most = at > most ? at : most;
-        }
-        if (least > box->high[k] || most < box->low[k])
-            return false;
-    }
-    return true;
-}
 
 /* Is the box beyond one facet? If not they may meet. */
 static bool is_beyond(const struct draft *draft, int32_t s, const struct cage_box *box)
@@ -94,36 +86,56 @@ static bool is_beyond(const struct draft *draft, int32_t s, const struct cage_bo
     return false;
 }
 
-/* A simplex may be free as far as the balls triangulated go, and covered by one that was left out (see prune.h). */
-static int32_t label_of(const struct draft *draft, int32_t s)
+static CAGE_INLINE void widen(struct bounds *bounds, int32_t k, int32_t at, bool first)
 {
-    int32_t label = draft->slice->label[s];
-    bool all = draft->slice->balls == draft->t->sites - draft->t->dim - 1;
-    return label == CAGE_COVERED && !all && cage_component_free(draft->t, s) ? PHANTOM : label;
+    bounds->low[k] = first || at < bounds->low[k] ? at : bounds->low[k];
+    bounds->high[k] = first || at > bounds->high[k] ? at : bounds->high[k];
 }
 
-/* Find the free simplices that meet the box (and perhaps some that do not); how many. */
-static int32_t meet(struct draft *draft, const struct cage_box *box)
+/* All free simplices. One may be free as far as the balls triangulated go, and covered by one that was left out (see prune.h). */
+static void find_free(struct draft *draft)
 {
     const struct cage_triangulation *t = draft->t;
-    const int32_t corner[3] = {(int32_t)box->low[0], (int32_t)box->low[1], (int32_t)box->low[2]};
-    int32_t depth = 0, count = 0;
-    draft->near = cage_delaunay_locate(t, corner, draft->near);
-    draft->floods++;
-    draft->mark[draft->near] = draft->floods;
-    draft->stack[depth++] = draft->near;
-    while (depth > 0) { /* those that meet the box are joined by facets that do */
-        int32_t s = draft->stack[--depth];
-        if (label_of(draft, s) != CAGE_COVERED && !is_beyond(draft, s, box))
-            draft->met[count++] = s;
+    bool all = draft->slice->balls == t->sites - t->dim - 1;
+    for (int32_t s = 0; s < t->simplices; s++) {
+        int32_t label = draft->slice->label[s];
+        if (label == CAGE_COVERED && (all || !cage_component_free(t, s)))
+            continue;
+        struct bounds made = {{0, 0, 0}, {0, 0, 0}, s, label == CAGE_COVERED ? PHANTOM : label};
         for (int32_t i = 0; i <= t->dim; i++) {
-            int32_t twin = t->simplex[s].twin[i], next = twin >> 2;
-            if (twin == CAGE_HULL || draft->mark[next] == draft->floods || !bounds_meet(draft, next, box))
-                continue;
-            draft->mark[next] = draft->floods;
-            draft->stack[depth++] = next;
+            const struct cage_site *site = &t->site[t->simplex[s].v[i]];
+            widen(&made, 0, site->x, i == 0);
+            widen(&made, 1, site->y, i == 0);
+            widen(&made, 2, site->z, i == 0);
         }
+        draft->open[draft->openings] = draft->openings;
+        draft->opening[draft->openings++] = made;
     }
+}
+
+/* Those of them whose bounds meet the box. */
+static int32_t nearby(const struct draft *draft, const struct cage_box *box, const int32_t *from, int32_t count, int32_t *to)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < count; i++) {
+        const struct bounds *b = &draft->opening[from[i]];
+        to[kept] = from[i]; /* stays if they meet: a branch would be a coin toss */
+        kept += (b->low[0] <= box->high[0]) & (b->high[0] >= box->low[0]) & (b->low[1] <= box->high[1]) &
+                (b->high[1] >= box->low[1]) & (b->low[2] <= box->high[2]) & (b->high[2] >= box->low[2]);
+    }
+    return kept;
+}
+
+/* Those that meet the box as far as their components differ: with one component all that are near. */
+static int32_t meet(struct draft *draft, const struct cage_box *box, const int32_t *open, int32_t opens)
+{
+    int32_t count = 0;
+    bool differ = false;
+    for (int32_t i = 0; i < opens; i++)
+        differ = differ || draft->opening[open[i]].label != draft->opening[open[0]].label;
+    for (int32_t i = 0; i < opens; i++)
+        if (!differ || !is_beyond(draft, draft->opening[open[i]].simplex, box))
+            draft->met[count++] = open[i];
     return count;
 }
 
@@ -132,7 +144,7 @@ static int32_t usual(const struct draft *draft, int32_t count)
 {
     int32_t best = CAGE_COVERED, votes = 0;
     for (int32_t i = 0; i < count; i++) {
-        int32_t label = label_of(draft, draft->met[i]);
+        int32_t label = draft->opening[draft->met[i]].label;
         if (label == CAGE_OUTSIDE)
             return label;
         votes += label == best ? 1 : -1; /* Boyer, Moore, "MJRTY", 1991 */
@@ -156,6 +168,13 @@ static bool is_nearer(const struct cage_site *a, const struct cage_site *b, cons
     return least > 0;
 }
 
+/* May they meet? Sums are within CAGE_REACH. */
+static CAGE_INLINE bool is_near(const struct cage_site *ball, const struct cage_box *box)
+{
+    return (ball->x + ball->r >= box->low[0]) & (ball->x - ball->r <= box->high[0]) & (ball->y + ball->r >= box->low[1]) &
+           (ball->y - ball->r <= box->high[1]) & (ball->z + ball->r >= box->low[2]) & (ball->z - ball->r <= box->high[2]);
+}
+
 /* Those of the sites that matter; -1: one of them holds the box. */
 static int32_t choose(const struct draft *draft, const struct cage_box *box, const int32_t *from, int32_t count, int32_t *to)
 {
@@ -165,7 +184,7 @@ static int32_t choose(const struct draft *draft, const struct cage_box *box, con
     int32_t met = 0, kept = 0;
     int64_t least = INT64_MAX;
     for (int32_t i = 0; i < count; i++) {
-        if (!cage_box_meets(box, &site[from[i]]))
+        if (!is_near(&site[from[i]], box))
             continue;
         int64_t power = cage_power(&site[from[i]], middle);
         to[met++] = from[i];
@@ -233,7 +252,7 @@ static int64_t list_entry(struct draft *draft, const int32_t *site, int32_t ball
         list[length++] = (uint32_t)at;
     }
     for (int32_t i = 0; i < met; i++) {
-        int32_t s = draft->met[i], other = label_of(draft, s);
+        int32_t s = draft->opening[draft->met[i]].simplex, other = draft->opening[draft->met[i]].label;
         if (other == label)
             continue;
         if (simplices++ == CAGE_CHART_SIMPLICES)
@@ -273,19 +292,18 @@ static bool half_of(const struct draft *draft, const struct frame *frame, int32_
 }
 
 /* The entry of a box in which these sites matter, or HALVE, or NO_ROOM. */
-static int64_t settle(struct draft *draft, const struct cage_box *box, const int32_t *site, int32_t count)
+static int64_t settle(struct draft *draft, const struct cage_box *box, const int32_t *site, int32_t count, const int32_t *open,
+                      int32_t opens)
 {
     int32_t most = draft->t->dim == 2 ? CAGE_CHART_BALLS_2D : CAGE_CHART_BALLS_3D;
     const int32_t point[3] = {(int32_t)box->low[0], (int32_t)box->low[1], (int32_t)box->low[2]};
-    if (count < 0)
-        return entry_of(CAGE_CHART_LABEL, 0);
     if (count == 0) {
         draft->near = cage_delaunay_locate(draft->t, point, draft->near);
         return entry_of(CAGE_CHART_LABEL, 1 + draft->slice->label[draft->near]);
     }
     if (box->low[0] == box->high[0] && box->low[1] == box->high[1] && box->low[2] == box->high[2])
         return entry_of(CAGE_CHART_LABEL, 1 + cage_slice_locate(draft->slice, point));
-    return count > most ? HALVE : list_entry(draft, site, count, meet(draft, box));
+    return count > most ? HALVE : list_entry(draft, site, count, meet(draft, box, open, opens));
 }
 
 /* Write the entries of all halves below the frame, depth first. False: no room. */
@@ -301,14 +319,20 @@ static bool grow(struct draft *draft, const struct frame *top)
             continue;
         }
         int32_t half = --f->left, *site = draft->list + (size_t)(depth + 1) * (size_t)draft->t->sites;
-        draft->word[f->entry + half] = entry_of(CAGE_CHART_LABEL, 0); /* beyond the bounding box nothing is asked */
+        int32_t *open = draft->open + (size_t)(depth + 1) * (size_t)draft->t->simplices;
+        draft->word[f->entry + half] = entry_of(CAGE_CHART_LABEL, 0); /* covered; beyond the bounding box nothing is asked */
         if (!half_of(draft, f, half, &box))
             continue;
         int32_t count = choose(draft, &box, f->site, f->sites, site), at = NO_WORD;
-        int64_t entry = settle(draft, &box, site, count);
+        if (count < 0)
+            continue;
+        int32_t opens = nearby(draft, &box, f->open, f->opens, open);
+        if (opens == 0)
+            continue;
+        int64_t entry = settle(draft, &box, site, count, open, opens);
         if (entry == HALVE && (at = add_words(draft, 1 << draft->t->dim)) != NO_WORD) {
             const struct frame next = {{(int32_t)box.low[0], (int32_t)box.low[1], (int32_t)box.low[2]},
-                                       f->bits - 1, at, 1 << draft->t->dim, site, count};
+                                       f->bits - 1, at, 1 << draft->t->dim, site, count, open, opens};
             frame[++depth] = next; /* sizes of at least 2: fewer than LEVELS */
             entry = entry_of(CAGE_CHART_SPLIT, at);
         }
@@ -352,7 +376,8 @@ static bool write(struct draft *draft)
     for (int32_t i = draft->t->dim + 1; i < draft->t->sites; i++)
         draft->list[count++] = i;
     /* The root is the low half of a box twice as large, of which nothing else is done. */
-    const struct frame top = {{draft->low[0], draft->low[1], draft->low[2]}, bits + 1, CAGE_CHART_ROOT, 1, draft->list, count};
+    const struct frame top = {{draft->low[0], draft->low[1], draft->low[2]}, bits + 1, CAGE_CHART_ROOT, 1, draft->list, count,
+                              draft->open, draft->openings};
     return grow(draft, &top);
 }
 
@@ -367,22 +392,23 @@ int32_t cage_chart_make(struct cage_arena *arena, const struct cage_slice *slice
     draft->t = &slice->t;
     draft->home = cage_arena_take(arena, sites, sizeof *draft->home);
     draft->list = cage_arena_take(arena, sites * LEVELS, sizeof *draft->list);
-    draft->mark = cage_arena_take(arena, simplices, sizeof *draft->mark);
-    draft->stack = cage_arena_take(arena, simplices, sizeof *draft->stack);
+    draft->opening = cage_arena_take(arena, simplices, sizeof *draft->opening);
+    draft->open = cage_arena_take(arena, simplices * LEVELS, sizeof *draft->open);
     draft->met = cage_arena_take(arena, simplices, sizeof *draft->met);
     size_t room = cage_arena_room(arena, sizeof *draft->word), before = arena->used, peak = arena->peak;
     draft->room = room > 1 << 29 ? 1 << 29 : (int32_t)room;
     draft->word = cage_arena_take(arena, (size_t)draft->room, sizeof *draft->word);
     uint32_t *word = draft->word;
-    bool done = draft->home && draft->list && draft->mark && draft->stack && draft->met && word;
+    bool done = draft->home && draft->list && draft->opening && draft->open && draft->met && word;
     if (done) {
         memset(draft->home, -1, sites * sizeof *draft->home);
-        memset(draft->mark, 0, simplices * sizeof *draft->mark);
+        find_free(draft);
         bound(draft);
         done = write(draft);
     }
     out->words = draft->words;
-    arena->peak = before + 4 * (size_t)out->words > peak ? before + 4 * (size_t)out->words : peak; /* words not used do not count */
+    size_t most = before + 4 * (size_t)out->words; /* words not used do not count */
+    arena->peak = most > peak ? most : peak;
     cage_arena_release(arena, mark);
     if (!done) {
         arena->needed = 2 * arena->size + 4096;

@@ -19,7 +19,7 @@ enum { CAGE_CHART_LOW = 0, CAGE_CHART_HIGH = 3, CAGE_CHART_BITS = 6, CAGE_CHART_
 enum { CAGE_CHART_SPLIT = 0, CAGE_CHART_LABEL = 1, CAGE_CHART_LIST = 2 };
 
 /* A list has at most so many balls, and simplices. */
-enum { CAGE_CHART_BALLS_2D = 64, CAGE_CHART_BALLS_3D = 255, CAGE_CHART_SIMPLICES = 255 };
+enum { CAGE_CHART_BALLS_2D = 32, CAGE_CHART_BALLS_3D = 255, CAGE_CHART_SIMPLICES = 255 };
 
 struct cage_chart {
     uint32_t *word;

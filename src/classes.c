@@ -43,7 +43,8 @@ int32_t cage_classes_make(struct cage_survey *survey, int32_t side)
             for (const struct cage_edge *edge = facts->node[k].edges; edge; edge = edge->next) {
                 if (graph->cell[edge->to->cell].child)
                     continue;
-                int32_t a = root_of(parent, classes->first[cell] + k), b = root_of(parent, cage_classes_node(survey, side, edge->to));
+                int32_t a = root_of(parent, classes->first[cell] + k);
+                int32_t b = root_of(parent, cage_classes_node(survey, side, edge->to));
                 parent[a > b ? a : b] = a < b ? a : b; /* a root is the first node of its tree */
                 classes->edges++;
             }

@@ -25,11 +25,11 @@ bool cage_component_free(const struct cage_triangulation *t, int32_t s)
 bool cage_component_wall(const struct cage_triangulation *t, int32_t s, int32_t i)
 {
     const struct cage_simplex *a = &t->simplex[s], *b = &t->simplex[a->twin[i] >> 2];
-    for (int32_t k = 0; k <= t->dim; k++)
-        if (k != i && a->v[k] <= t->dim)
-            return false;
     const struct cage_site *facet[3];
     cage_facet_sites(t, s, i, facet);
+    for (int32_t k = 0; k < t->dim; k++)
+        if (facet[k] <= t->site + t->dim)
+            return false;
     if (cage_facet_power(t->dim, facet) > 0)
         return false;
     int32_t above = a->v[i], below = b->v[a->twin[i] & 3];
@@ -67,7 +67,7 @@ static void find_deepest(const struct cage_triangulation *t, struct cage_compone
         int32_t k = c->label[s];
         if (k < 0 || cage_simplex_outer(t, s))
             continue;
-        if (c->deep[k] < 0 || cage_i128_compare(volume(t, s), volume(t, c->deep[k])) > 0)
+        if (c->deep[k] < 0 || (k != CAGE_OUTSIDE && cage_i128_compare(volume(t, s), volume(t, c->deep[k])) > 0))
             c->deep[k] = s;
     }
 }

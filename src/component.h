@@ -8,7 +8,7 @@
 #define CAGE_OUTSIDE 0    /* label of the unbounded component, which always exists */
 
 /* label: one for each simplex: CAGE_COVERED, or its component 0..count-1; others than the outside in the order of
- * their first simplex. deep: for each component its largest simplex without sentinels, or -1. */
+ * their first simplex. deep: for each component its largest simplex without sentinels (of the outside the first), or -1. */
 struct cage_components {
     int32_t *label;
     int32_t *deep;

@@ -462,5 +462,9 @@ void cage_simplex_sites(const struct cage_triangulation *t, int32_t s, const str
 
 void cage_facet_sites(const struct cage_triangulation *t, int32_t s, int32_t i, const struct cage_site *face[3])
 {
-    face_sites(t->dim, t->site, &t->simplex[s], i, face);
+    const int32_t *v = t->simplex[s].v, *index = face_of(t->dim, i);
+    face[0] = &t->site[v[index[0]]];
+    face[1] = &t->site[v[index[1]]];
+    if (t->dim == 3)
+        face[2] = &t->site[v[index[2]]];
 }

@@ -6,7 +6,7 @@ const int32_t CAGE_FACE_3D[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
 
 /* u.u - r_1^2 + r_0^2 for u = z_1 - z_0, from the heights, right for sentinels too: <= 9 M^2 in the plane (2^61.2), 13 M^2
  * in space (2^51.8). */
-static int64_t lift(const struct cage_site *base, const struct cage_site *other, const int64_t u[3])
+static CAGE_INLINE int64_t lift(const struct cage_site *base, const struct cage_site *other, const int64_t u[3])
 {
     return other->h - base->h - 2 * (base->x * u[0] + base->y * u[1] + base->z * u[2]);
 }
@@ -17,7 +17,7 @@ static int64_t dot(const int64_t a[3], const int64_t b[3])
 }
 
 /* The entries of b x c, <= 8 M^2. */
-static void cross(const int64_t b[3], const int64_t c[3], int64_t out[3])
+static CAGE_INLINE void cross(const int64_t b[3], const int64_t c[3], int64_t out[3])
 {
     out[0] = b[1] * c[2] - b[2] * c[1];
     out[1] = b[2] * c[0] - b[0] * c[2];
@@ -34,7 +34,7 @@ static CAGE_INLINE void set_up(int32_t dim, const struct cage_site *const v[4], 
 }
 
 /* The cofactor vectors of the u_i, entries < 2^51; returns their determinant, < 2^78. */
-static cage_i128 cofactors(int64_t u[3][3], int64_t out[3][3])
+static CAGE_INLINE cage_i128 cofactors(int64_t u[3][3], int64_t out[3][3])
 {
     cross(u[1], u[2], out[0]);
     cross(u[2], u[0], out[1]);
@@ -111,20 +111,27 @@ static int32_t rough_power_2d(const struct cage_site *const v[4])
     return compare_roughly(2, n, error, cage_i128_of(u[0][0] * u[1][1] - u[0][1] * u[1][0]), v[0]->r, drop);
 }
 
+static CAGE_INLINE uint64_t sizes_of(const int64_t v[3]) { return size_of(v[0]) | size_of(v[1]) | size_of(v[2]); }
+
 /* The same from the top 29 bits of the a_i and 31 of the cofactors: products are off by less than the sum of what is left of
  * their factors, and 1. */
 static int32_t rough_power_3d(const struct cage_site *const v[4])
 {
-    int64_t u[3][3], a[3], cofactor[3][3], n[3];
-    set_up(3, v, u, a);
-    cage_i128 det = cofactors(u, cofactor);
-    uint64_t all = 0;
-    for (int32_t i = 0; i < 3; i++)
-        all |= size_of(cofactor[i][0]) | size_of(cofactor[i][1]) | size_of(cofactor[i][2]);
-    uint32_t lift_drop = excess(size_of(a[0]) | size_of(a[1]) | size_of(a[2]), 29), drop = excess(all, 31);
+    int64_t u[3][3], a[3], c[3][3];
+    cage_difference(v[1], v[0], u[0]);
+    cage_difference(v[2], v[0], u[1]);
+    cage_difference(v[3], v[0], u[2]);
+    a[0] = lift(v[0], v[1], u[0]);
+    a[1] = lift(v[0], v[2], u[1]);
+    a[2] = lift(v[0], v[3], u[2]);
+    cage_i128 det = cofactors(u, c);
+    uint64_t all = sizes_of(c[0]) | sizes_of(c[1]) | sizes_of(c[2]);
+    uint32_t lift_drop = excess(sizes_of(a), 29), drop = excess(all, 31);
     int64_t a0 = cut(a[0], lift_drop), a1 = cut(a[1], lift_drop), a2 = cut(a[2], lift_drop);
-    for (int32_t k = 0; k < 3; k++) /* <= 3 2^29 2^31 */
-        n[k] = a0 * cut(cofactor[0][k], drop) + a1 * cut(cofactor[1][k], drop) + a2 * cut(cofactor[2][k], drop);
+    const int64_t n[3] = {/* <= 3 2^29 2^31 */
+                          a0 * cut(c[0][0], drop) + a1 * cut(c[1][0], drop) + a2 * cut(c[2][0], drop),
+                          a0 * cut(c[0][1], drop) + a1 * cut(c[1][1], drop) + a2 * cut(c[2][1], drop),
+                          a0 * cut(c[0][2], drop) + a1 * cut(c[1][2], drop) + a2 * cut(c[2][2], drop)};
     uint64_t error = size_of(a0) + size_of(a1) + size_of(a2) + 3 * ((all >> drop) + 2); /* < 2^34 */
     return compare_roughly(3, n, error, det, v[0]->r, drop + lift_drop);
 }
@@ -175,8 +182,20 @@ static int32_t centre_power(const struct cage_centre *centre)
     return cage_norm_compare(centre->offset, cage_i128_scale(centre->denominator, centre->base->r));
 }
 
+/* No point in common: squares <= 12 M^2 in space. */
+static CAGE_INLINE bool are_apart(const struct cage_site *a, const struct cage_site *b)
+{
+    int64_t u[3], sum = (int64_t)a->r + b->r;
+    cage_difference(a, b, u);
+    return dot(u, u) > sum * sum;
+}
+
 int32_t cage_simplex_power(int32_t dim, const struct cage_site *const v[4])
 {
+    for (int32_t i = 0; dim == 3 && i < 3; i++) /* no simplex has less power than an edge of it */
+        for (int32_t k = i + 1; k <= 3; k++)
+            if (are_apart(v[i], v[k]))
+                return 1;
     int32_t sign = dim == 2 ? rough_power_2d(v) : rough_power_3d(v);
     if (sign != 0)
         return sign;
@@ -290,6 +309,9 @@ int32_t cage_facet_power(int32_t dim, const struct cage_site *const facet[3])
             return 1;
         return length == sum * sum || length == gap * gap ? 0 : -1;
     }
+    for (int32_t i = 0; i < 3; i++) /* no facet has less power than an edge of it */
+        if (are_apart(facet[i], facet[i == 2 ? 0 : i + 1]))
+            return 1;
     struct triangle t;
     triangle_centre(facet, &t);
     const cage_i128 big[3] = {t.alpha, t.beta, t.gram};

@@ -29,10 +29,18 @@ static uint32_t side_word(const cage_atlas *atlas, int32_t side, uint32_t at)
     return word(atlas, CAGE_ATLAS_SIDE + (uint32_t)side * CAGE_SIDE_WORDS + at);
 }
 
+/* A coordinate or a radius: whatever the bytes are, within what the scene's dimension allows. */
+static int32_t length_at(const cage_atlas *atlas, uint32_t at)
+{
+    int32_t length = number(atlas, at), reach = atlas->dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
+    return length > reach ? reach : length < -reach ? -reach : length;
+}
+
 static cage_ball ball_at(const cage_atlas *atlas, uint32_t at)
 {
     const uint32_t dim = (uint32_t)atlas->dim;
-    const cage_ball ball = {number(atlas, at), number(atlas, at + 1), dim == 3 ? number(atlas, at + 2) : 0, number(atlas, at + dim)};
+    const cage_ball ball = {length_at(atlas, at), length_at(atlas, at + 1), dim == 3 ? length_at(atlas, at + 2) : 0,
+                            length_at(atlas, at + dim)};
     return ball;
 }
 
@@ -46,7 +54,8 @@ static bool fits(const cage_atlas *atlas, uint32_t place, uint32_t count, uint32
 
 static bool cells_are_sound(const cage_atlas *atlas)
 {
-    uint32_t first = word(atlas, CAGE_ATLAS_CELL), cells = word(atlas, CAGE_ATLAS_CELL + 1), leaves = word(atlas, CAGE_ATLAS_LEAVES);
+    uint32_t first = word(atlas, CAGE_ATLAS_CELL), cells = word(atlas, CAGE_ATLAS_CELL + 1);
+    uint32_t leaves = word(atlas, CAGE_ATLAS_LEAVES);
     uint32_t roots = atlas->dim == 2 ? 2 : 4, children = atlas->dim == 2 ? 2 : 8;
     if (!fits(atlas, first, cells, 1) || cells < roots || leaves > cells)
         return false;
@@ -64,8 +73,9 @@ static bool side_is_sound(const cage_atlas *atlas, int32_t side)
     uint32_t classes = side_word(atlas, side, CAGE_SIDE_CLASSES), edges = side_word(atlas, side, CAGE_SIDE_EDGES);
     uint32_t of = side_word(atlas, side, CAGE_SIDE_CLASS), row = side_word(atlas, side, CAGE_SIDE_ROW);
     uint32_t to = side_word(atlas, side, CAGE_SIDE_TO), leaf = side_word(atlas, side, CAGE_SIDE_LEAF);
+    uint32_t table = side_word(atlas, side, CAGE_SIDE_TABLE);
     if (!fits(atlas, leaf, leaves, 2) || !fits(atlas, of, nodes, 1) || nodes > INT32_MAX / 2 || !fits(atlas, row, nodes + 1, 1) ||
-        !fits(atlas, to, edges, 1) || !fits(atlas, side_word(atlas, side, CAGE_SIDE_TABLE), classes, CAGE_CLASS_WORDS) || classes == 0)
+        !fits(atlas, to, edges, 1) || !fits(atlas, table, classes, CAGE_CLASS_WORDS) || classes == 0)
         return false;
     bool sound = word(atlas, row) == 0 && word(atlas, row + nodes) == edges;
     for (uint32_t i = 0; i < nodes && sound; i++)
@@ -81,7 +91,7 @@ int32_t cage_atlas_open(cage_atlas *atlas, const void *bytes, size_t size)
 {
     if (!atlas || !bytes)
         return CAGE_ERROR_ARGUMENT;
-    cage_atlas made = {bytes, CAGE_ATLAS_HEAD, 0, 0, {0, 0}, {0, 0}, 0, {0, 0}};
+    cage_atlas made = {bytes, CAGE_ATLAS_HEAD, 0, 0, {0, 0}, {0, 0}, 0, {0, 0, 0}, {0, 0}};
     if (size < 4 * CAGE_ATLAS_HEAD || word(&made, CAGE_ATLAS_MAGIC) != CAGE_ATLAS_MAGIC_WORD ||
         word(&made, CAGE_ATLAS_FORMAT) != CAGE_ATLAS_FORMAT_WORD || word(&made, CAGE_ATLAS_WORDS) > INT32_MAX ||
         word(&made, CAGE_ATLAS_WORDS) < CAGE_ATLAS_HEAD || size != 4 * (size_t)word(&made, CAGE_ATLAS_WORDS))
@@ -97,6 +107,8 @@ int32_t cage_atlas_open(cage_atlas *atlas, const void *bytes, size_t size)
     if ((made.dim != 2 && made.dim != 3) || made.side < CAGE_SIDE_INNER || made.side > CAGE_SIDE_BOTH || !cells_are_sound(&made))
         return CAGE_ERROR_ATLAS;
     made.leaves = number(&made, CAGE_ATLAS_LEAVES);
+    for (uint32_t k = 0; k < 3; k++)
+        made.pivot[k] = length_at(&made, CAGE_ATLAS_PIVOT + k);
     for (int32_t side = 0; side < 2; side++) {
         if ((made.side >> side & 1) && !side_is_sound(&made, side))
             return CAGE_ERROR_ATLAS;
@@ -232,31 +244,53 @@ static int32_t class_at(const cage_atlas *atlas, const int32_t q[4], const int32
 
 /* ---- collisions ----------------------------------------------------------------------------------------- */
 
+/* The first obstacle whose x is not below that, or their number. */
+static uint32_t first_from(const cage_atlas *atlas, int64_t x)
+{
+    uint32_t place = word(atlas, CAGE_ATLAS_OBSTACLE), size = (uint32_t)atlas->dim + 1, low = 0;
+    uint32_t high = word(atlas, CAGE_ATLAS_OBSTACLE + 1);
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (number(atlas, place + size * middle) < x)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Does the object's ball overlap an obstacle? at: where its centre is, each coordinate to less than 1. */
+static bool ball_collides(const cage_atlas *atlas, const cage_pose *pose, const cage_ball *y, const int64_t at[3])
+{
+    uint32_t size = (uint32_t)atlas->dim + 1, obstacles = word(atlas, CAGE_ATLAS_OBSTACLE + 1);
+    int64_t far = (int64_t)y->r + length_at(atlas, CAGE_ATLAS_LARGEST) + 1; /* on no axis are those that overlap farther apart */
+    uint32_t from = first_from(atlas, at[0] - far), place = word(atlas, CAGE_ATLAS_OBSTACLE) + size * from;
+    for (uint32_t j = from; j < obstacles && number(atlas, place) <= at[0] + far; j++, place += size) {
+        const cage_ball x = ball_at(atlas, place);
+        const int64_t apart[3] = {at[0] - x.x, at[1] - x.y, at[2] - x.z}; /* < 2^30, the vector off by less than 1 */
+        int64_t square = apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2], reach = (int64_t)x.r + y->r + 1;
+        if (square >= reach * reach)
+            continue;
+        if ((reach >= 2 && square < (reach - 2) * (reach - 2)) || cage_pair_collides(pose, y, &x))
+            return true;
+    }
+    return false;
+}
+
 /* Do any inner balls overlap at the pose (user's frame)? */
 static bool collides(const cage_atlas *atlas, const cage_pose *pose)
 {
     uint32_t object = word(atlas, CAGE_ATLAS_OBJECT), objects = word(atlas, CAGE_ATLAS_OBJECT + 1);
-    uint32_t obstacle = word(atlas, CAGE_ATLAS_OBSTACLE), obstacles = word(atlas, CAGE_ATLAS_OBSTACLE + 1);
-    uint32_t size = (uint32_t)atlas->dim + 1;
     struct cage_rotation rotation;
     cage_rotation_of(pose->q, &rotation);
     for (uint32_t i = 0; i < objects; i++) {
-        const cage_ball y = ball_at(atlas, object + size * i);
+        const cage_ball y = ball_at(atlas, object + ((uint32_t)atlas->dim + 1) * i);
         const int32_t from[3] = {y.x, y.y, y.z};
-        int32_t at[3];
-        cage_rotate(&rotation, from, at);
-        for (uint32_t j = 0; j < obstacles; j++) {
-            const cage_ball x = ball_at(atlas, obstacle + size * j);
-            const int64_t apart[3] = {(int64_t)at[0] + pose->x[0] - x.x, (int64_t)at[1] + pose->x[1] - x.y,
-                                      (int64_t)at[2] + pose->x[2] - x.z}; /* < 2^30, off by less than 1 */
-            int64_t square = apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2], reach = (int64_t)x.r + y.r + 1;
-            if (square >= reach * reach)
-                continue;
-            if (reach >= 2 && square < (reach - 2) * (reach - 2))
-                return true;
-            if (cage_pair_collides(pose, &y, &x))
-                return true;
-        }
+        int32_t to[3];
+        cage_rotate(&rotation, from, to);
+        const int64_t at[3] = {(int64_t)to[0] + pose->x[0], (int64_t)to[1] + pose->x[1], (int64_t)to[2] + pose->x[2]};
+        if (ball_collides(atlas, pose, &y, at))
+            return true;
     }
     return false;
 }
@@ -270,10 +304,7 @@ static int32_t check(const cage_atlas *atlas, const cage_pose *pose, int32_t at[
     int32_t error = cage_pose_check(atlas->dim, pose), reach = atlas->dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
     if (error != CAGE_OK)
         return error;
-    int32_t pivot[3];
-    for (uint32_t k = 0; k < 3; k++)
-        pivot[k] = number(atlas, CAGE_ATLAS_PIVOT + k);
-    cage_pose_pivot(pose, pivot, at);
+    cage_pose_pivot(pose, atlas->pivot, at);
     for (int32_t k = 0; k < 3; k++)
         if (at[k] < -reach || at[k] > reach)
             return CAGE_ERROR_RANGE;
@@ -288,31 +319,30 @@ int32_t cage_atlas_locate(const cage_atlas *atlas, const cage_pose *pose, int32_
     return error != CAGE_OK ? error : class_at(atlas, pose->q, at, side == CAGE_SIDE_OUTER);
 }
 
-/* The classes of a pose on both sides; CAGE_IN_COLLISION, CAGE_OK, or an error. */
-static int32_t place(const cage_atlas *atlas, const cage_pose *pose, int32_t class[2])
+/* The classes of a pose on both sides; does it collide? */
+static bool place(const cage_atlas *atlas, const cage_pose *pose, const int32_t at[3], int32_t class[2])
 {
-    int32_t at[3], error = check(atlas, pose, at);
     class[0] = class[1] = CAGE_NO_CLASS;
-    if (error != CAGE_OK)
-        return error;
     if (atlas->side & CAGE_SIDE_INNER) {
         class[0] = class_at(atlas, pose->q, at, 0);
         if (class[0] == CAGE_NO_CLASS)
-            return CAGE_IN_COLLISION;
+            return true;
     }
     if (atlas->side & CAGE_SIDE_OUTER)
         class[1] = class_at(atlas, pose->q, at, 1);
-    return class[1] == CAGE_NO_CLASS && collides(atlas, pose) ? CAGE_IN_COLLISION : CAGE_OK;
+    return class[1] == CAGE_NO_CLASS && collides(atlas, pose);
 }
 
 int32_t cage_atlas_ask(const cage_atlas *atlas, const cage_pose *start, const cage_pose *goal)
 {
-    int32_t from[2], to[2] = {CAGE_OUTSIDE, CAGE_OUTSIDE};
-    int32_t answer = place(atlas, start, from);
-    if (answer == CAGE_OK && goal)
-        answer = place(atlas, goal, to);
-    if (answer != CAGE_OK)
-        return answer;
+    int32_t from[2], to[2] = {CAGE_OUTSIDE, CAGE_OUTSIDE}, at[2][3];
+    int32_t error = check(atlas, start, at[0]);
+    if (error == CAGE_OK && goal)
+        error = check(atlas, goal, at[1]);
+    if (error != CAGE_OK)
+        return error;
+    if (place(atlas, start, at[0], from) || (goal && place(atlas, goal, at[1], to)))
+        return CAGE_IN_COLLISION;
     if (from[0] != CAGE_NO_CLASS && to[0] != CAGE_NO_CLASS && from[0] != to[0])
         return goal ? CAGE_DISCONNECTED : CAGE_CAGED;
     if (from[1] != CAGE_NO_CLASS && from[1] == to[1])
@@ -320,28 +350,38 @@ int32_t cage_atlas_ask(const cage_atlas *atlas, const cage_pose *start, const ca
     return CAGE_UNDEFINED;
 }
 
+/* The cell that was cut into the one with that number and its siblings; its own number if there is none. */
+static uint32_t parent_of(const cage_atlas *atlas, uint32_t at, uint32_t children, uint32_t *index)
+{
+    uint32_t first = word(atlas, CAGE_ATLAS_CELL), parent = 0;
+    for (; parent < at; parent++) {
+        uint32_t entry = word(atlas, first + parent), child = entry >> 1;
+        *index = at - child;
+        if (!(entry & 1) && child <= at && *index < children)
+            break;
+    }
+    return parent;
+}
+
 /* The representative rotation of the leaf with that number: its cell is looked for in the whole tree. */
-static void rotation_of(const cage_atlas *atlas, int32_t leaf, int32_t q[4])
+static bool rotation_of(const cage_atlas *atlas, uint32_t leaf, int32_t q[4])
 {
     const struct cage_fibre *fibre = atlas->dim == 2 ? &cage_so2 : &cage_so3;
-    uint32_t first = word(atlas, CAGE_ATLAS_CELL), cells = word(atlas, CAGE_ATLAS_CELL + 1), at = 0;
+    uint32_t first = word(atlas, CAGE_ATLAS_CELL), cells = word(atlas, CAGE_ATLAS_CELL + 1), at = 0, index = 0;
     int32_t way[DEEPEST], depth = 0;
-    while (at < cells && word(atlas, first + at) != ((uint32_t)leaf << 1 | 1))
+    while (at < cells && word(atlas, first + at) != (leaf << 1 | 1))
         at++;
-    for (uint32_t roots = (uint32_t)fibre->roots; at >= roots && depth < DEEPEST - 1; depth++) {
-        uint32_t parent = 0, child = 0;
-        for (parent = 0; parent < at; parent++) {
-            child = word(atlas, first + parent) >> 1;
-            if (!(word(atlas, first + parent) & 1) && child <= at && at < child + (uint32_t)fibre->children)
-                break;
-        }
-        way[depth] = (int32_t)(at - child);
+    for (; at >= (uint32_t)fibre->roots; way[depth++] = (int32_t)index) {
+        uint32_t parent = at < cells ? parent_of(atlas, at, (uint32_t)fibre->children, &index) : at;
+        if (parent == at || depth == fibre->max_level)
+            return false;
         at = parent;
     }
     struct cage_cell cell = {0, (int32_t)at, {0, 0, 0}};
     while (depth > 0)
         fibre->child(&cell, way[--depth], &cell);
     fibre->representative(&cell, q);
+    return true;
 }
 
 int32_t cage_atlas_class(const cage_atlas *atlas, int32_t side, int32_t class_number, cage_class *out)
@@ -351,14 +391,14 @@ int32_t cage_atlas_class(const cage_atlas *atlas, int32_t side, int32_t class_nu
         return CAGE_ERROR_ARGUMENT;
     uint32_t at = side_word(atlas, side == CAGE_SIDE_OUTER, CAGE_SIDE_TABLE) + (uint32_t)class_number * CAGE_CLASS_WORDS;
     cage_class made = {number(atlas, at + CAGE_CLASS_CELLS), number(atlas, at + CAGE_CLASS_NODES), {0, 0, 0}, {0, 0, 0},
-                       word(atlas, at + CAGE_CLASS_LEAF) > 0, {{0, 0, 0}, {1, 0, 0, 0}}};
+                       0, {{0, 0, 0}, {1, 0, 0, 0}}};
     for (uint32_t k = 0; k < 3; k++) {
         made.low[k] = number(atlas, at + CAGE_CLASS_LOW + k);
         made.high[k] = number(atlas, at + CAGE_CLASS_HIGH + k);
         made.pose.x[k] = number(atlas, at + CAGE_CLASS_AT + k);
     }
-    if (made.known)
-        rotation_of(atlas, number(atlas, at + CAGE_CLASS_LEAF) - 1, made.pose.q);
+    if (word(atlas, at + CAGE_CLASS_LEAF) > 0)
+        made.known = rotation_of(atlas, word(atlas, at + CAGE_CLASS_LEAF) - 1, made.pose.q);
     *out = made;
     return CAGE_OK;
 }

@@ -3,6 +3,7 @@
  * That is Algorithms 1 to 4 of the paper, with exact gluing. Of a slice its charts, extents and edges are kept; the slice itself
  * as long as the store holds it. */
 #include "survey.h"
+#include "atlas.h"
 #include "box.h"
 
 #include <string.h>
@@ -25,7 +26,8 @@ static int64_t cells_down_to(int32_t dim, int32_t level)
 static int32_t limits_of(int32_t dim, const cage_plan *plan, cage_limits *limits)
 {
     int32_t finest = dim == 2 ? CAGE_LEVEL_MAX_2D : CAGE_LEVEL_MAX_3D;
-    if (plan->level < -1 || plan->level > finest || plan->max_cells < 0 || plan->max_cells > 1 << 24)
+    if (plan->side < CAGE_SIDE_INNER || plan->side > CAGE_SIDE_BOTH || plan->level < -1 || plan->level > finest ||
+        plan->max_cells < 0 || plan->max_cells > 1 << 24)
         return CAGE_ERROR_ARGUMENT;
     int64_t cells = plan->level < 0 ? (dim == 2 ? CELLS_2D : CELLS_3D) : cells_down_to(dim, plan->level);
     cells = plan->max_cells > 0 ? plan->max_cells : cells;
@@ -83,6 +85,13 @@ int32_t cage_survey_begin(cage_survey **survey, const cage_scene *scene, const c
     }
     if (error != CAGE_OK)
         return error;
+    const cage_shape *obstacles = &scene->obstacles;
+    made->obstacle = cage_arena_take(&made->proof->arena, (size_t)obstacles->inner_count, sizeof *made->obstacle);
+    if (!made->obstacle)
+        return CAGE_ERROR_MEMORY;
+    for (int32_t i = 0; i < obstacles->inner_count; i++)
+        made->obstacle[i] = obstacles->inner[i];
+    cage_atlas_sort(made->obstacle, obstacles->inner_count);
     made->cell = cage_graph_leaf(&made->proof->graph, -1);
     made->after = CAGE_CELL_GOAL;
     *survey = made;
@@ -116,7 +125,8 @@ static int32_t measure(struct cage_survey *survey, const struct cage_slice *slic
         bool boxed = cage_box_make(slice, &s, 1, &box);
         struct cage_extent *e = &extent[slice->label[s]];
         for (int32_t i = 0; i < slice->t.dim; i++) { /* a bounded component lies among the balls, within CAGE_REACH */
-            int64_t low = boxed && box.low[i] > -reach ? box.low[i] : -reach, high = boxed && box.high[i] < reach ? box.high[i] : reach;
+            int64_t low = boxed && box.low[i] > -reach ? box.low[i] : -reach;
+            int64_t high = boxed && box.high[i] < reach ? box.high[i] : reach;
             e->low[i] = low < e->low[i] ? (int32_t)low : e->low[i];
             e->high[i] = high > e->high[i] ? (int32_t)high : e->high[i];
         }

@@ -45,7 +45,7 @@ struct cage_survey {
     int32_t cell;  /* the leaf in work, or -1: all are done */
     int32_t side;
     int32_t after; /* the last of its neighbours that is done */
-    int32_t leaves;
+    cage_ball *obstacle; /* the inner obstacles by x */
     bool done;
 };
 

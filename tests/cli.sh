@@ -665,6 +665,27 @@ prove "the same question gives the same answer" bar fence_gap 0,0,0 --json
 grep -v seconds "$folder/out" >"$folder/second"
 holds cmp -s "$folder/first" "$folder/second"
 
+# ---- margin ---------------------------------------------------------------------------------------
+
+# Discs of radius 2.5, neighbours 4 apart, let one of radius 1 through when all shrink by more than (2 * 3.5 - 4) / 4; the gap,
+# 8 wide from centre to centre, is closed when all grow by more than (8 - 2 * 3.5) / 4; it is as narrow as the start then.
+if [ -n "$python" ]; then
+    margin() {
+        prove "$1" disc "$2" 0,0,0 --margin 14 --json
+        holds $python -c 'import json, sys
+r, right = json.load(open(sys.argv[1])), float(sys.argv[2])
+assert right - 0.01 < r["margin"][0] < right < r["margin"][1] < right + 0.01, r
+x, y = map(abs, r["narrow"][:2])
+assert right < 0 or max(abs(max(x, y) - 4), abs(min(x, y) - 2)) < 0.1, r' "$folder/out" "$3"
+    }
+    margin "how tight the fence is" fence 0.75
+    margin "how wide its gap is" fence_gap -0.25
+fi
+prove "the margin as text" disc fence 0,0,0 --margin 6
+holds grep -q '^Margin  0\.[67][0-9]* to 0\.[78][0-9]*: closed with' "$folder/out"
+prove "a margin is a number of proofs" disc fence 0,0,0 --margin x
+refused '--margin: '
+
 # ---- atlas and query -------------------------------------------------------------------------------
 
 # name, object, obstacles, then options: one atlas, in $folder/atlas.

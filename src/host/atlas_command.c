@@ -1,6 +1,5 @@
 /* atlas_command.c: "cage atlas": options in, one survey, the atlas out as a file, its classes as a table or as JSON. */
 #include <errno.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -10,9 +9,12 @@
 #define STEPS_A_TURN 64 /* between two looks at the clock */
 #define MOST_CELLS (1 << 24)
 #define ROWS 24         /* of the table, for each side */
+#define MOST_PASSAGE_CLASSES 6
+#define PASSAGE_CELLS 1024 /* of each proof: where a passage just opens, more would tell little */
+#define MOST_PASSAGES (MOST_PASSAGE_CLASSES * (MOST_PASSAGE_CLASSES + 1) / 2)
 
 typedef struct options {
-    const char *object, *obstacles, *output, *header, *side, *level, *budget, *memory, *unit;
+    const char *object, *obstacles, *output, *header, *side, *level, *budget, *memory, *unit, *passages;
     int json, quiet;
 } options;
 
@@ -47,6 +49,8 @@ void host_atlas_help(FILE *out)
         "  --side both|inner|outer  what the atlas can prove: separation (inner), connection (outer), or both\n"
         "  --memory BYTES    one block of this size and no more; K, M and G mean 1024, 1024^2, 1024^3\n"
         "  --unit U          length of a grid unit (default: the finest power of two at which the scene fits)\n"
+        "  --passages N      for each large bounded outer class: by how much every radius must shrink for it to open into\n"
+        "                    the outside, or into another one, and where; by N proofs for each pair (takes a while)\n"
         "  --c-header FILE   write the atlas as a C array as well, for a firmware build\n"
         "  --json            print one JSON object instead of the table\n"
         "  --quiet           print nothing; no progress, no warnings\n"
@@ -67,7 +71,8 @@ static int read_options(int argc, char **argv, options *given, host_error *error
         { "-o", &given->output, NULL },       { "--c-header", &given->header, NULL },
         { "--side", &given->side, NULL },     { "--level", &given->level, NULL },
         { "--budget", &given->budget, NULL }, { "--memory", &given->memory, NULL },
-        { "--unit", &given->unit, NULL },     { "--json", NULL, &given->json },
+        { "--unit", &given->unit, NULL },     { "--passages", &given->passages, NULL },
+        { "--json", NULL, &given->json },
         { "--quiet", NULL, &given->quiet },
     };
     int code;
@@ -145,7 +150,8 @@ static int32_t attempt(const cage_scene *scene, const cage_plan *plan, built *ma
 }
 
 /* In a block of the size given, or (bytes null) in one that grows until it is large enough. */
-static int build(const cage_scene *scene, const cage_plan *plan, const size_t *bytes, int progress, built *made, host_error *error)
+static int build(const cage_scene *scene, const cage_plan *plan, const size_t *bytes, int progress, built *made,
+                 host_error *error)
 {
     const size_t wanted = cage_survey_size(scene, plan);
     size_t least = bytes != NULL ? *bytes + 1 : wanted > HOST_LEAST_BLOCK ? wanted : HOST_LEAST_BLOCK;
@@ -331,22 +337,80 @@ static void print_json(FILE *out, const built *made, double unit)
     (void)fprintf(out, "\n}\n");
 }
 
-/* ---- the command ---------------------------------------------------------------------------------------- */
+/* ---- narrow passages ------------------------------------------------------------------------------------ */
 
-/* Room on the grid for poses twice as far out as anything there is. */
-static double far_out(const host_query *query)
+typedef struct passage {
+    int32_t from, to; /* outer classes; to 0: the outside */
+    cage_margin margin;
+} passage;
+
+/* The known pose of an outer class, in the user's frame; it is off by less than the outer side gives away. */
+static int pose_of(const cage_atlas *atlas, int32_t class, double unit, cage_pose *pose)
 {
-    const host_balls *set[2] = { &query->object, &query->obstacles };
-    double far = 0;
-    int32_t i;
-    int k, n;
+    cage_class known;
+    host_pose user;
 
-    for (n = 0; n < 2; n++)
-        for (i = 0; i < set[n]->count; i++)
-            for (k = 0; k < 3; k++)
-                far = fmax(far, fabs(set[n]->ball[i].x[k]) + set[n]->ball[i].r);
-    return 2 * far;
+    if (cage_atlas_class(atlas, CAGE_SIDE_OUTER, class, &known) != CAGE_OK || !known.known)
+        return 0;
+    host_from_grid(&known.pose, atlas->pivot, atlas->dim, unit, &user);
+    return host_pose_to_grid(&user, unit, pose) == HOST_OK;
 }
+
+/* By shrinking all balls, between all pairs of the largest bounded outer classes, and from each to the outside. */
+static int find_passages(const cage_scene *scene, const built *made, double unit, int32_t rounds, passage *list, int32_t *count,
+                         host_error *error)
+{
+    row *rows = rows_of(&made->atlas, CAGE_SIDE_OUTER);
+    size_t size = HOST_FIRST_BLOCK;
+    void *block = host_take_block(&size, HOST_LEAST_BLOCK);
+    const int32_t classes = made->atlas.classes[1];
+    int32_t i, k, state = rows != NULL && block != NULL ? CAGE_OK : CAGE_ERROR_MEMORY;
+    cage_limits limits;
+
+    cage_limits_default(&limits, scene->dim);
+    limits.max_cells = PASSAGE_CELLS;
+    *count = 0;
+    for (i = 0; state == CAGE_OK && i < classes && i <= MOST_PASSAGE_CLASSES; i++)
+        for (k = 0; state == CAGE_OK && k < i; k++) {
+            const int32_t from = rows[rows[i].number == 0 ? k : i].number, to = rows[rows[i].number == 0 ? i : k].number;
+            cage_pose start, goal;
+
+            if (!pose_of(&made->atlas, from, unit, &start) || (to > 0 && !pose_of(&made->atlas, to, unit, &goal)))
+                continue;
+            list[*count].from = from;
+            list[*count].to = to;
+            state = cage_margin_find(scene, &start, to > 0 ? &goal : NULL, &limits, rounds, block, size, &list[*count].margin);
+            *count += state == CAGE_OK;
+        }
+    free(rows);
+    free(block);
+    return state == CAGE_OK ? HOST_OK : host_fail(error, state == CAGE_ERROR_MEMORY ? HOST_MEMORY : HOST_BAD_INPUT,
+                                                  "--passages: %.200s", cage_error_text(state));
+}
+
+static void print_passages(FILE *out, const passage *list, int32_t count, const cage_atlas *atlas, double unit)
+{
+    int32_t i;
+
+    (void)fprintf(out, "\nPassages: two outer classes join when every radius shrinks by (the first does not do, the second does)\n");
+    for (i = 0; i < count; i++) {
+        const cage_margin *margin = &list[i].margin;
+        host_pose narrow;
+        char to[16] = "the outside";
+
+        if (list[i].to > 0)
+            (void)snprintf(to, sizeof to, "%ld", (long)list[i].to);
+        (void)fprintf(out, "  %5ld and %-11s  %.6g, %.6g", (long)list[i].from, to, margin->closed * unit, margin->open * unit);
+        if (margin->known) {
+            host_from_grid(&margin->narrow, margin->pivot, atlas->dim, unit, &narrow);
+            (void)fprintf(out, "  at ");
+            host_print_pose(out, &narrow);
+        }
+        (void)fprintf(out, "\n");
+    }
+}
+
+/* ---- the command ---------------------------------------------------------------------------------------- */
 
 static int read_scene(const options *given, host_query *query, host_grid *grid, host_error *error)
 {
@@ -361,7 +425,7 @@ static int read_scene(const options *given, host_query *query, host_grid *grid, 
         code = host_read_balls(given->obstacles, &query->obstacles, error);
     query->start.dim = query->object.dim != 0 ? query->object.dim : query->obstacles.dim != 0 ? query->obstacles.dim : 2;
     query->start.q[0] = 1;
-    query->start.x[0] = far_out(query);
+    query->roomy = 1;
     if (code == HOST_OK)
         code = host_agree_on_dimension(query, error);
     if (code == HOST_OK && !given->quiet)
@@ -371,11 +435,18 @@ static int read_scene(const options *given, host_query *query, host_grid *grid, 
 
 static int run(const options *given, host_query *query, host_grid *grid, built *made, host_error *error)
 {
+    passage passages[MOST_PASSAGES];
     cage_plan plan;
     size_t bytes = 0;
+    int32_t count, rounds = 0;
     int code = HOST_OK;
 
-    if (given->memory != NULL)
+    if (given->passages != NULL)
+        code = host_blame(error, "--passages", host_parse_integer(given->passages, 0, 64, &rounds, error));
+    if (code == HOST_OK && given->passages != NULL && given->json)
+        code = host_fail(error, HOST_BAD_INPUT, "--passages: they are part of the table; there is none with --json");
+
+    if (code == HOST_OK && given->memory != NULL)
         code = host_blame(error, "--memory", host_parse_bytes(given->memory, &bytes, error));
     if (code == HOST_OK)
         code = read_scene(given, query, grid, error);
@@ -396,6 +467,11 @@ static int run(const options *given, host_query *query, host_grid *grid, built *
         print_json(stdout, made, grid->unit);
     else if (code == HOST_OK && !given->quiet)
         print_text(stdout, given, made, grid->unit);
+    if (code == HOST_OK && given->passages != NULL) {
+        code = find_passages(&grid->scene, made, grid->unit, rounds, passages, &count, error);
+        if (code == HOST_OK)
+            print_passages(stdout, passages, count, &made->atlas, grid->unit);
+    }
     return code;
 }
 

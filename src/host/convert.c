@@ -101,7 +101,7 @@ static double needed_reach(const host_query *query)
 
     if (query->has_goal)
         pose = fmax(pose, pose_reach(&query->goal));
-    return fmax(largest_reach(&query->obstacles) + 3 * half_extent(&query->object), pose + object);
+    return (query->roomy ? 2 : 1) * fmax(largest_reach(&query->obstacles) + 3 * half_extent(&query->object), pose + object);
 }
 
 static double reach_limit(int32_t dim)

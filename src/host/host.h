@@ -49,6 +49,7 @@ typedef struct host_query {
     host_pose goal;
     int has_goal;
     int32_t dim;
+    int roomy; /* the grid has room for a scene twice as large, or poses twice as far out */
 } host_query;
 
 /* The same query on the grid: what is proved. */
@@ -70,6 +71,7 @@ typedef struct host_answer {
     const cage_result *result;
     cage_proof *proof;
     double seconds;
+    const cage_margin *margin; /* null where it was not asked for */
     const struct picture_cloud *cloud; /* in space: where the pivot can be, null where it was not looked for (picture.h) */
 } host_answer;
 
@@ -148,6 +150,9 @@ int host_pose_to_grid(const host_pose *pose, double unit, cage_pose *result);
  * the point pivot of the object is, and the result is where its origin is. */
 void host_from_grid(const cage_pose *pose, const int32_t *pivot, int32_t dim, double unit,
                     host_pose *result);
+
+/* A pose in the user's numbers, as for --start. */
+void host_print_pose(FILE *out, const host_pose *pose);
 
 /* Where a pose puts a point of the object (both in grid units), in the user's numbers. */
 void host_place(const cage_pose *pose, const int32_t point[3], double unit, double result[3]);

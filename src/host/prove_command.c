@@ -15,7 +15,7 @@
 
 typedef struct options {
     const char *object, *obstacles, *start, *goal, *svg, *ply;
-    const char *side, *max_level, *max_cells, *memory, *unit, *threads;
+    const char *side, *max_level, *max_cells, *memory, *unit, *threads, *margin;
     int json, quiet;
 } options;
 
@@ -59,6 +59,8 @@ void host_prove_help(FILE *out)
         "                  Without it the block is up to 1G, and grows to 4G when the proof needs it\n"
         "  --threads N     work on so many cores (default: all, with --memory one); the answer and its counts\n"
         "                  are the same. More than one take memory of their own as well, 4M to 256M each\n"
+        "  --margin N      find out as well by how much every radius may shrink before the answer changes (negative:\n"
+        "                  must grow), by N more proofs, each twice as close\n"
         "  --unit U        length of a grid unit (default: the finest power of two at which the scene\n"
         "                  fits). Balls between grid points are rounded to the safe side\n"
         "  --json          print one JSON object instead of text\n"
@@ -71,7 +73,8 @@ void host_prove_help(FILE *out)
         "\n"
         "The first line of the text is the verdict alone. The JSON object has verdict, reason, dim, unit,\n"
         "start, goal, level, cells, slices, gluings, steps, balls_inserted, peak_bytes, seconds, pivot and\n"
-        "path. Pairs are [inner, outer]. A path is a list of poses like POSE; from each to the next the\n"
+        "path, with --margin margin (a pair: shrunk by the first it is closed, by the second open; null: not\n"
+        "known) and narrow (a pose). Pairs are [inner, outer]. A path is a list of poses like POSE; from each to the next the\n"
         "object moves on a straight line without turning, or turns the shorter way about its point pivot.\n"
         "Progress is shown on standard error when that is a terminal. Installed, this command is called\n"
         "cage-prove: \"cage-prove --object ...\" is \"cage prove --object ...\".\n"
@@ -99,6 +102,7 @@ static int read_options(int argc, char **argv, options *given, host_error *error
         { "--max-level", &given->max_level, NULL }, { "--max-cells", &given->max_cells, NULL },
         { "--memory", &given->memory, NULL },       { "--unit", &given->unit, NULL },
         { "--ply", &given->ply, NULL },             { "--threads", &given->threads, NULL },
+        { "--margin", &given->margin, NULL },
         { "--json", NULL, &given->json },           { "--quiet", NULL, &given->quiet },
     };
     int code;
@@ -134,6 +138,7 @@ static int read_query(const options *given, host_query *query, host_error *error
     int code = host_blame(error, "--start", host_parse_pose(given->start, &query->start, error));
 
     query->has_goal = given->goal != NULL;
+    query->roomy = given->margin != NULL;
     if (code == HOST_OK && query->has_goal)
         code = host_blame(error, "--goal", host_parse_pose(given->goal, &query->goal, error));
     if (code == HOST_OK)
@@ -267,10 +272,34 @@ static int draw(const options *given, host_answer *answer, host_error *error)
     return code;
 }
 
+/* Proofs of scenes with other radii, in a block of their own. */
+static int find_margin(const host_answer *answer, int32_t rounds, cage_margin *margin, host_error *error)
+{
+    const host_grid *grid = answer->grid;
+    size_t size = HOST_FIRST_BLOCK;
+    void *block = host_take_block(&size, HOST_LEAST_BLOCK);
+    int32_t state = CAGE_ERROR_MEMORY;
+
+    if (block != NULL)
+        state = cage_margin_find(&grid->scene, &grid->start, answer->query->has_goal ? &grid->goal : NULL, answer->limits,
+                                 rounds, block, size, margin);
+    free(block);
+    return state == CAGE_OK ? HOST_OK : host_fail(error, state == CAGE_ERROR_MEMORY ? HOST_MEMORY : HOST_BAD_INPUT,
+                                                  "--margin: %.200s", cage_error_text(state));
+}
+
 static int show_answer(const options *given, host_answer *answer, host_error *error)
 {
+    cage_margin margin;
+    int32_t rounds;
     int code = check_path(answer, error);
 
+    if (code == HOST_OK && given->margin != NULL)
+        code = host_blame(error, "--margin", host_parse_integer(given->margin, 0, 64, &rounds, error));
+    if (code == HOST_OK && given->margin != NULL)
+        code = find_margin(answer, rounds, &margin, error);
+    if (given->margin != NULL)
+        answer->margin = &margin;
     if (code == HOST_OK)
         code = draw(given, answer, error);
     if (code != HOST_OK)

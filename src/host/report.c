@@ -32,7 +32,7 @@ static const char *advice(const cage_result *result, const cage_limits *limits)
     }
 }
 
-static void print_pose(FILE *out, const host_pose *pose)
+void host_print_pose(FILE *out, const host_pose *pose)
 {
     if (pose->dim == 2)
         (void)fprintf(out, "%.10g,%.10g,%.8g", pose->x[0], pose->x[1], pose->degrees);
@@ -53,7 +53,7 @@ static void print_query_pose(FILE *out, const char *name, const cage_pose *pose,
     y = used.x[1] - asked->x[1];
     z = used.x[2] - asked->x[2];
     (void)fprintf(out, "%s ", name);
-    print_pose(out, &used);
+    host_print_pose(out, &used);
     if (x == 0 && y == 0 && z == 0)
         (void)fprintf(out, "\n");
     else
@@ -125,6 +125,25 @@ static void print_pivot(FILE *out, const host_answer *answer)
         (void)fprintf(out, ",%.10g", pivot[2] * unit);
 }
 
+static void print_margin(FILE *out, const host_answer *answer)
+{
+    const cage_margin *margin = answer->margin;
+    host_pose narrow;
+
+    if (margin->bounded)
+        (void)fprintf(out, "Margin  %.6g to %.6g: closed with every radius less by the first, open by the second; %ld proofs\n",
+                      margin->closed * answer->grid->unit, margin->open * answer->grid->unit, (long)margin->proofs);
+    else
+        (void)fprintf(out, "Margin  below %.6g: open with every radius less by that, and grown as far as the grid allows\n",
+                      margin->open * answer->grid->unit);
+    if (margin->known) {
+        host_from_grid(&margin->narrow, margin->pivot, answer->query->dim, answer->grid->unit, &narrow);
+        (void)fprintf(out, "        narrowest at ");
+        host_print_pose(out, &narrow);
+        (void)fprintf(out, "\n");
+    }
+}
+
 void host_report_text(FILE *out, const host_answer *answer)
 {
     const cage_result *result = answer->result;
@@ -140,6 +159,8 @@ void host_report_text(FILE *out, const host_answer *answer)
         print_pivot(out, answer);
         (void)fprintf(out, "; checked again, apart from the search\n");
     }
+    if (answer->margin != NULL)
+        print_margin(out, answer);
     print_unit(out, answer->grid);
     if (result->verdict != CAGE_IN_COLLISION)
         print_work(out, answer);
@@ -200,6 +221,26 @@ static void json_sides(FILE *out, const char *name, int64_t inner, int64_t outer
     (void)fprintf(out, "  \"%s\": [%lld, %lld],\n", name, (long long)inner, (long long)outer);
 }
 
+static void json_margin(FILE *out, const host_answer *answer)
+{
+    const cage_margin *margin = answer->margin;
+    host_pose narrow;
+
+    (void)fprintf(out, "  \"margin\": [");
+    if (margin->bounded)
+        (void)fprintf(out, "%.17g", margin->closed * answer->grid->unit + 0.0);
+    else
+        (void)fprintf(out, "null");
+    (void)fprintf(out, ", %.17g],\n  \"narrow\": ", margin->open * answer->grid->unit + 0.0);
+    if (margin->known) {
+        host_from_grid(&margin->narrow, margin->pivot, answer->query->dim, answer->grid->unit, &narrow);
+        json_pose(out, &narrow);
+    } else {
+        (void)fprintf(out, "null");
+    }
+    (void)fprintf(out, ",\n");
+}
+
 static void json_path(FILE *out, const host_answer *answer)
 {
     const cage_result *result = answer->result;
@@ -243,6 +284,8 @@ void host_report_json(FILE *out, const host_answer *answer)
     (void)fprintf(out, "  \"pivot\": ");
     json_numbers(out, pivot, answer->query->dim);
     (void)fprintf(out, ",\n");
+    if (answer->margin != NULL)
+        json_margin(out, answer);
     json_path(out, answer);
     (void)fprintf(out, "}\n");
 }

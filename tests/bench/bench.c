@@ -1,5 +1,5 @@
 /* bench.c: times triangulations and whole proofs: `bench` prints tables, `bench SET [RUNS]` one line as peer_cgal does,
- * `bench space SCENE FILE` one for each slice, `bench uniform` the last table alone. */
+ * `bench space SCENE FILE` one for each slice, `bench uniform`, `bench atlas` the last tables alone. */
 #include <stdio.h>
 #include <time.h>
 
@@ -297,12 +297,19 @@ static void print_fence(void)
     print_uniform(&fence, 7);
 }
 
+void bench_fence_make(cage_scene *scene)
+{
+    static struct fence fence;
+    make_fence(&fence);
+    *scene = fence.scene;
+}
+
 static void print_set(int number, int runs)
 {
     struct bench_set set;
     struct timing t;
     if (number < 0 || number >= BENCH_SETS)
-        bench_die("usage: bench [SET [RUNS] | fence | space SCENE FILE | uniform]");
+        bench_die("usage: bench [SET [RUNS] | fence | space SCENE FILE | uniform | atlas]");
     bench_set_make(&set, number);
     time_set(&set, runs > 0 ? runs : bench_runs(&set), &t);
     printf("%s %d %d %.1f %.1f %d %d\n", set.name, set.dim, set.count, t.best, t.median, t.simplices, t.vertices);
@@ -318,6 +325,8 @@ int main(int argc, char **argv)
         bench_space_print(block, atoi(argv[2]), argv[3]);
     } else if (argc > 1 && !strcmp(argv[1], "uniform")) {
         bench_uniform_print(block);
+    } else if (argc > 1 && !strcmp(argv[1], "atlas")) {
+        bench_atlas_print(block);
     } else if (argc > 1 && !strcmp(argv[1], "fence")) {
         print_fence();
     } else if (argc > 1) {
@@ -326,6 +335,7 @@ int main(int argc, char **argv)
         print_sets();
         print_fence();
         bench_uniform_print(block);
+        bench_atlas_print(block);
     }
     free(block);
     return 0;

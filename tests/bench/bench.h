@@ -40,6 +40,13 @@ void bench_space_slice(struct cage_arena *arena, const struct cage_side *side, c
  * into the file. */
 void bench_space_print(void *block, int32_t number, const char *file);
 
+/* ---- atlas.c -------------------------------------------------------------------------------------- */
+
+void bench_atlas_print(void *block);
+
+/* ---- bench.c: the fence of 200 balls around a bracket of 40, which stay where they are. */
+void bench_fence_make(cage_scene *scene);
+
 /* ---- uniform.c ------------------------------------------------------------------------------------ */
 
 /* All slices of a level of space, all neighbours glued, component by component. */
