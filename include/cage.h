@@ -272,6 +272,9 @@ int32_t cage_survey_begin(cage_survey **survey, const cage_scene *scene, const c
  * nor on the block. */
 int32_t cage_survey_run(cage_survey *survey, int64_t steps);
 
+/* The same with workers (or null), see cage_prove_run_with: every byte of the atlas is the same. */
+int32_t cage_survey_run_with(cage_survey *survey, int64_t steps, const cage_workers *workers);
+
 const cage_survey_result *cage_survey_result_of(const cage_survey *survey);
 
 /* The size of the finished atlas (0: it is not finished), written to out (aligned to 4 bytes or not) if it has as many bytes. */

@@ -13,6 +13,12 @@ enum { PATIENCE = 3, LONGEST = 24, WORTHWHILE = 4 };
 /* Open nodes looked at, and the least memory for a worker. */
 enum { NODES = 64, LEAST = 1 << 16 };
 
+bool cage_workers_are_valid(const cage_workers *workers)
+{
+    return !workers || (workers->count >= 1 && workers->count <= CAGE_WORKERS && workers->run &&
+                        (workers->memory || !workers->bytes));
+}
+
 struct cage_ahead *cage_ahead_make(const cage_workers *workers)
 {
     struct cage_arena all;
@@ -34,13 +40,15 @@ bool cage_ahead_is_due(const struct cage_ahead *ahead)
     return ahead->missed >= ahead->patience;
 }
 
-static void add(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a, int32_t b, int32_t seed)
+bool cage_ahead_add(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a, int32_t b, int32_t seed)
 {
+    if (ahead->units == CAGE_UNITS)
+        return false;
     for (int32_t i = 0; i < ahead->units; i++) {
         const struct cage_unit *other = &ahead->unit[i];
         bool same = other->a == a && other->b == b, turned = other->a == b && other->b == a;
         if (other->proof == proof && other->side == side && (same || turned))
-            return;
+            return true;
     }
     struct cage_unit *unit = &ahead->unit[ahead->units++];
     unit->proof = proof;
@@ -49,6 +57,17 @@ static void add(struct cage_ahead *ahead, const struct cage_proof *proof, int32_
     unit->b = b;
     unit->seed = seed;
     unit->done = false;
+    return ahead->units < CAGE_UNITS;
+}
+
+bool cage_ahead_has(const struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t cell)
+{
+    bool has = false;
+    for (int32_t i = 0; i < ahead->units; i++) {
+        const struct cage_unit *unit = &ahead->unit[i];
+        has = has || (unit->proof == proof && unit->side == side && unit->a == cell && unit->b < 0);
+    }
+    return has;
 }
 
 /* What the search does next, as far as that is known: until there are `most` units. */
@@ -62,10 +81,10 @@ static void look(struct cage_ahead *ahead, const struct cage_proof *proof, int32
         int32_t next = cage_search_unglued(proof, side, node, -1);
         for (; next >= 0 && ahead->units < most - 2; next = cage_search_unglued(proof, side, node, next)) {
             if (!proof->graph.cell[next].facts[side].held)
-                add(ahead, proof, side, next, -1, 0);
+                cage_ahead_add(ahead, proof, side, next, -1, 0);
             if (!proof->graph.cell[node->cell].facts[side].held)
-                add(ahead, proof, side, node->cell, -1, 0);
-            add(ahead, proof, side, node->cell, next, node->component);
+                cage_ahead_add(ahead, proof, side, node->cell, -1, 0);
+            cage_ahead_add(ahead, proof, side, node->cell, next, node->component);
         }
     }
 }
@@ -94,6 +113,8 @@ static void work(void *data, int32_t index, int32_t worker)
     arena->peak = mark;
     if (!ahead->gluing) {
         error = cage_search_make(unit->proof, arena, unit->side, unit->a, &unit->slice);
+        if (error == CAGE_OK && unit->proof->all)
+            error = cage_chart_make(arena, &unit->slice, &unit->chart);
     } else {
         const struct cage_slice *c = slice_of(ahead, unit, unit->a), *d = slice_of(ahead, unit, unit->b);
         if (c && d)
@@ -108,36 +129,40 @@ static void work(void *data, int32_t index, int32_t worker)
 
 static bool is_leaf(const struct cage_unit *unit, int32_t cell) { return cell < 0 || unit->proof->graph.cell[cell].child == 0; }
 
-/* Drop what was used or can be no more; all of it when memory comes to an end. */
-static void tidy(struct cage_ahead *ahead, int32_t workers)
+void cage_ahead_tidy(struct cage_ahead *ahead, const cage_workers *workers)
 {
     bool full = false;
     int32_t kept = 0;
-    for (int32_t i = 0; i < workers; i++)
+    for (int32_t i = 0; i < workers->count; i++)
         full = full || ahead->arena[i].used > ahead->arena[i].size / 2;
     for (int32_t i = 0; i < ahead->units && !full; i++) {
         const struct cage_unit *unit = &ahead->unit[i];
         if (unit->done && is_leaf(unit, unit->a) && is_leaf(unit, unit->b))
             ahead->unit[kept++] = *unit;
     }
-    for (int32_t i = 0; i < workers && kept == 0; i++)
+    for (int32_t i = 0; i < workers->count && kept == 0; i++)
         cage_arena_release(&ahead->arena[i], 0);
     ahead->units = ahead->first = kept;
     ahead->missed = 0;
 }
 
-void cage_ahead_work(struct cage_ahead *ahead, const struct cage_proof *proof, const cage_workers *workers)
+void cage_ahead_do(struct cage_ahead *ahead, const cage_workers *workers)
 {
-    tidy(ahead, workers->count);
-    look(ahead, proof, proof->second ? CAGE_UNITS * 3 / 4 : CAGE_UNITS);
-    if (proof->second)
-        look(ahead, proof->second, CAGE_UNITS);
     int32_t fresh = ahead->units - ahead->first, longer = 2 * ahead->patience;
     ahead->patience = fresh >= WORTHWHILE ? PATIENCE : longer < LONGEST ? longer : LONGEST;
     for (int32_t half = 0; half < 2 && fresh > 1; half++) {
         ahead->gluing = half == 1;
         workers->run(workers->context, fresh, work, ahead);
     }
+}
+
+void cage_ahead_work(struct cage_ahead *ahead, const struct cage_proof *proof, const cage_workers *workers)
+{
+    cage_ahead_tidy(ahead, workers);
+    look(ahead, proof, proof->second ? CAGE_UNITS * 3 / 4 : CAGE_UNITS);
+    if (proof->second)
+        look(ahead, proof->second, CAGE_UNITS);
+    cage_ahead_do(ahead, workers);
 }
 
 const struct cage_unit *cage_ahead_find(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a,

@@ -18,6 +18,7 @@ struct cage_proof {
     struct cage_result result; /* of this search */
     struct cage_result total;  /* and of the second one */
     struct cage_ahead *ahead;  /* while workers help, else null */
+    const struct cage_unit *taken; /* where the slice that was made last came from; null: from no worker */
     struct cage_proof *second; /* in space, when both sides are asked for: see run.c */
     struct cage_limits limits;
     struct cage_arena arena;   /* what stays: this struct, the graph, facts, the path */

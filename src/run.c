@@ -80,8 +80,7 @@ int32_t cage_prove_run(cage_proof *proof, int64_t steps)
 
 int32_t cage_prove_run_with(cage_proof *proof, int64_t steps, const cage_workers *workers)
 {
-    if (!proof || (workers && (workers->count < 1 || workers->count > CAGE_WORKERS || !workers->run ||
-                               (!workers->memory && workers->bytes))))
+    if (!proof || !cage_workers_are_valid(workers))
         return CAGE_ERROR_ARGUMENT;
     struct cage_ahead *ahead = workers ? cage_ahead_make(workers) : NULL;
     struct cage_proof *second = proof->second;

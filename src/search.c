@@ -20,6 +20,7 @@ int32_t cage_search_make(const struct cage_proof *proof, struct cage_arena *aren
 static int32_t make(struct cage_proof *proof, int32_t side, int32_t cell, struct cage_slice *slice)
 {
     const struct cage_unit *unit = proof->ahead ? cage_ahead_find(proof->ahead, proof, side, cell, -1, 0, &proof->scratch) : NULL;
+    proof->taken = unit;
     if (!unit)
         return cage_search_make(proof, &proof->scratch, side, cell, slice);
     *slice = unit->slice;

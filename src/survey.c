@@ -144,11 +144,15 @@ static int32_t build(struct cage_survey *survey)
     struct cage_sheet *sheet = &survey->sheet[survey->side][survey->cell];
     const struct cage_slice *slice;
     struct cage_chart chart;
+    proof->taken = NULL;
     int32_t error = cage_proof_slice(proof, survey->side, survey->cell, &slice);
     if (error != CAGE_OK)
         return error;
     size_t mark = proof->scratch.used;
-    error = cage_chart_make(&proof->scratch, slice, &chart);
+    if (proof->taken)
+        chart = proof->taken->chart;
+    else
+        error = cage_chart_make(&proof->scratch, slice, &chart);
     if (error != CAGE_OK)
         return error;
     uint32_t *word = cage_arena_take(&proof->arena, (size_t)chart.words, sizeof *word);
@@ -167,13 +171,16 @@ static int32_t glue(struct cage_survey *survey, int32_t other)
 {
     struct cage_proof *proof = survey->proof;
     const struct cage_slice *c, *d;
-    struct cage_touch *touch;
-    int32_t count, mixed;
     int32_t error = cage_proof_slices(proof, survey->side, survey->cell, other, &c, &d);
     if (error != CAGE_OK)
         return error;
     size_t mark = proof->scratch.used;
-    error = cage_glue(&proof->scratch, c, d, CAGE_ALL, &touch, &count, &mixed);
+    const struct cage_unit *unit =
+        proof->ahead ? cage_ahead_find(proof->ahead, proof, survey->side, survey->cell, other, CAGE_ALL, &proof->scratch) : NULL;
+    struct cage_touch *touch = unit ? unit->touch : NULL;
+    int32_t count = unit ? unit->count : 0, mixed = unit ? unit->mixed : 0;
+    if (!unit)
+        error = cage_glue(&proof->scratch, c, d, CAGE_ALL, &touch, &count, &mixed);
     if (error == CAGE_OK)
         error = cage_graph_add_gluing(&proof->graph, survey->side, survey->cell, other, CAGE_ALL, touch, count);
     proof->result.gluings[survey->side]++;
@@ -319,6 +326,33 @@ static int32_t step(struct cage_survey *survey)
     return finish_round(survey);
 }
 
+/* What comes next on one side of a leaf; false: enough of it. */
+static bool look_at(struct cage_survey *survey, int32_t cell, int32_t side)
+{
+    const struct cage_proof *proof = survey->proof;
+    const struct cage_graph *graph = &proof->graph;
+    const struct cage_sheet *sheet = survey->sheet[side];
+    bool more = sheet[cell].chart.word || cage_ahead_add(proof->ahead, proof, side, cell, -1, 0);
+    for (int32_t next = CAGE_CELL_GOAL; more && (next = cage_graph_neighbour(graph, cell, next)) >= 0;) {
+        bool made = cage_ahead_has(proof->ahead, proof, side, next), glued = false;
+        if (sheet[cell].chart.word)
+            glued = cage_graph_is_glued(graph->cell[cell].facts[side].node, next);
+        if ((sheet[next].chart.word || made) && !glued)
+            more = cage_ahead_add(proof->ahead, proof, side, cell, next, CAGE_ALL);
+    }
+    return more;
+}
+
+static void look_ahead(struct cage_survey *survey, const cage_workers *workers)
+{
+    cage_ahead_tidy(survey->proof->ahead, workers);
+    bool more = true;
+    for (int32_t cell = survey->cell; more && cell >= 0; cell = cage_graph_leaf(&survey->proof->graph, cell))
+        for (int32_t side = 0; more && side < CAGE_SIDES; side++)
+            more = !is_wanted(survey, side) || look_at(survey, cell, side);
+    cage_ahead_do(survey->proof->ahead, workers);
+}
+
 static void sum_up(struct cage_survey *survey)
 {
     struct cage_survey_result *result = &survey->result;
@@ -341,14 +375,21 @@ static void sum_up(struct cage_survey *survey)
     result->atlas_bytes = survey->done ? cage_survey_atlas(survey, NULL, 0) : 0;
 }
 
-int32_t cage_survey_run(cage_survey *survey, int64_t steps)
+int32_t cage_survey_run(cage_survey *survey, int64_t steps) { return cage_survey_run_with(survey, steps, NULL); }
+
+int32_t cage_survey_run_with(cage_survey *survey, int64_t steps, const cage_workers *workers)
 {
-    if (!survey)
+    if (!survey || !cage_workers_are_valid(workers))
         return CAGE_ERROR_ARGUMENT;
-    for (; steps > 0 && !survey->done && survey->proof->error == CAGE_OK; steps--) {
-        survey->proof->error = step(survey);
+    struct cage_proof *proof = survey->proof;
+    proof->ahead = workers ? cage_ahead_make(workers) : NULL;
+    for (; steps > 0 && !survey->done && proof->error == CAGE_OK; steps--) {
+        if (proof->ahead && survey->cell >= 0 && cage_ahead_is_due(proof->ahead))
+            look_ahead(survey, workers);
+        proof->error = step(survey);
         survey->result.steps++;
     }
+    proof->ahead = NULL;
     sum_up(survey);
     return survey->proof->error != CAGE_OK ? survey->proof->error : survey->done;
 }

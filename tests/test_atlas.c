@@ -9,6 +9,7 @@
 #include "atlas.h"
 #include "body.h"
 #include "fibre.h"
+#include "grid.h"
 #include "oracle.h"
 #include "oracle_space.h"
 #include "referee.h"
@@ -116,6 +117,38 @@ START_TEST(four_fingers)
                 drop(&m);
             }
         }
+}
+END_TEST
+
+/* A ball and one obstacle: a slice is one closed ball, of the sum of their radii, less 2 inside and 8 more outside (see
+ * grid.h). */
+START_TEST(balls_are_closed)
+{
+    for (int32_t round = 0; round < 20; round++) {
+        int32_t dim = 2 + round % 2, sign = round / 2 % 2 ? 1 : -1, r = 50, change = cage_radius_change(0, sign);
+        int32_t user = sign < 0 ? CAGE_SIDE_INNER : CAGE_SIDE_OUTER;
+        for (int32_t i = 0; i < round / 4; i++)
+            r *= 10;
+        const int32_t part[3] = {3 * r / 5, 4 * r / 5, 0};
+        const cage_ball guest = {0, 0, 0, 20}, ball = {1000, -7, dim == 3 ? 11 : 0, r - 20 - change};
+        const cage_scene view = {{&guest, &guest, 1, 1}, {&ball, &ball, 1, 1}, dim};
+        struct made m;
+        make_at(&view, round / 4 % 2, 0, &m);
+        ck_assert_int_eq(change, sign < 0 ? -2 : 8);
+        for (int32_t k = 0; k < 4 * dim; k++)
+            for (int32_t beyond = 0; beyond <= 1; beyond++) {
+                cage_pose pose = {{ball.x, ball.y, ball.z}, {1 + k % 3, 0, 0, k % 3}};
+                int32_t end = k % 2 ? 1 : -1, axis = k / 2 % dim;
+                if (k < 2 * dim)
+                    pose.x[axis] += end * (r + beyond);
+                else {
+                    pose.x[axis] += end * (part[0] + beyond);
+                    pose.x[(axis + 1) % dim] -= part[1];
+                }
+                ck_assert_int_eq(cage_atlas_locate(&m.atlas, &pose, user), beyond ? 0 : CAGE_NO_CLASS);
+            }
+        drop(&m);
+    }
 }
 END_TEST
 
@@ -369,6 +402,29 @@ static int64_t check_classes(const struct made *m)
     }
     free(leaf);
     return edges;
+}
+
+/* The obstacles are all there, by x in rising order, and the largest radius is told. */
+static void check_obstacles(const struct made *m, const cage_scene *view)
+{
+    uint32_t at = word(m, CAGE_ATLAS_OBSTACLE), dim = (uint32_t)view->dim;
+    int32_t count = view->obstacles.inner_count, largest = 0, last = INT32_MIN;
+    bool *used = test_alloc((size_t)count * sizeof *used);
+    memset(used, 0, (size_t)count * sizeof *used);
+    test_require(word(m, CAGE_ATLAS_OBSTACLE + 1) == (uint32_t)count);
+    for (int32_t i = 0; i < count; i++, at += dim + 1) {
+        const cage_ball ball = {(int32_t)word(m, at), (int32_t)word(m, at + 1), dim == 3 ? (int32_t)word(m, at + 2) : 0,
+                                (int32_t)word(m, at + dim)};
+        int32_t j = 0;
+        while (j < count && (used[j] || memcmp(&view->obstacles.inner[j], &ball, sizeof ball)))
+            j++;
+        test_require(j < count && ball.x >= last);
+        used[j] = true;
+        last = ball.x;
+        largest = ball.r > largest ? ball.r : largest;
+    }
+    test_require(word(m, CAGE_ATLAS_LARGEST) == (uint32_t)largest);
+    free(used);
 }
 
 /* ---- poses ---------------------------------------------------------------------------------------------- */
@@ -652,6 +708,7 @@ static void check_all(const cage_scene *view, const struct made *m, const cage_p
     struct asked a = {view, m, leaf_cells(m), seed, {*start, *(goal ? goal : start)}};
     struct spot before, s;
     seen.edges += check_classes(m);
+    check_obstacles(m, view);
     s.pose = *start;
     look(&a, &s);
     for (int32_t i = 0; i < poses; i++) {
@@ -1118,6 +1175,7 @@ int main(void)
     TCase *truth = blocks_case(suite, "truth"), *scenes = blocks_case(suite, "scenes"), *bytes = blocks_case(suite, "bytes");
     TCase *harm = blocks_case(suite, "damage");
     tcase_add_test(truth, four_fingers);
+    tcase_add_test(truth, balls_are_closed);
     tcase_add_loop_test(truth, two_rooms, 0, 2);
     tcase_add_test(truth, cutting_decides);
     tcase_add_test(scenes, plane_scenes);

@@ -38,8 +38,11 @@ static int32_t signed_at(const struct reader *r, uint32_t at) { return (int32_t)
 
 static void place_at(const struct reader *r, uint32_t at, int64_t out[3])
 {
-    for (uint32_t k = 0; k < 3; k++)
+    const int32_t reach = r->dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D; /* no centre is beyond: sentinels are not told */
+    for (uint32_t k = 0; k < 3; k++) {
         out[k] = k < (uint32_t)r->dim ? signed_at(r, at + k) : 0;
+        test_require(llabs(out[k]) <= reach);
+    }
 }
 
 static bool ball_holds(const struct reader *r, uint32_t at, const int32_t p[3])
@@ -522,15 +525,15 @@ END_TEST
 /* Equal balls on a lattice that leave a pocket at the middle of each cell, touch there, or just do not. */
 START_TEST(charts_of_lattices)
 {
-    enum { WIDE = 5 };
-    int32_t dim = 2 + _i;
+    enum { MOST = 512 };
+    int32_t dim = 2 + _i, edge = dim == 2 ? 22 : 8, step = test_rounds(20) == 20 ? 1 : 4;
     memset(&seen, 0, sizeof seen);
     for (int32_t half = 2; half <= 40; half += 19)
-        for (int32_t r = half; r * r <= dim * half * half + 2 * half; r++) {
-            cage_ball ball[WIDE * WIDE * WIDE];
+        for (int32_t r = half; r * r <= dim * half * half + 2 * half; r += step) {
+            cage_ball ball[MOST];
             int32_t count = 0;
-            for (int32_t i = 0; i < WIDE * WIDE * (dim == 3 ? WIDE : 1); i++) {
-                const cage_ball made = {2 * half * (i % WIDE), 2 * half * (i / WIDE % WIDE), 2 * half * (i / WIDE / WIDE), r};
+            for (int32_t i = 0; i < edge * edge * (dim == 3 ? edge : 1); i++) {
+                const cage_ball made = {2 * half * (i % edge), 2 * half * (i / edge % edge), 2 * half * (i / edge / edge), r};
                 ball[count++] = made;
             }
             compare_balls(dim, ball, count, (uint64_t)r, "lattice");
@@ -558,6 +561,34 @@ START_TEST(pockets_that_just_close)
                 cage_arena_init(&arena, block, ARENA);
                 slice_of(&arena, 2, ball, count < 4 ? 4 : count, &slice);
                 ck_assert_int_eq(slice.regions, less > 0 ? 2 : 1);
+            }
+        }
+}
+END_TEST
+
+/* The same ball many times is one: all of them matter alike everywhere, and none need be told twice. */
+START_TEST(coincident_balls_count_once)
+{
+    enum { MANY = 400 };
+    for (int32_t dim = 2; dim <= 3; dim++)
+        for (int32_t r = 100; r <= 1000000; r *= 100) {
+            cage_ball ball[MANY];
+            struct cage_arena arena;
+            struct cage_slice slice;
+            struct cage_chart one, chart;
+            for (int32_t i = 0; i < MANY; i++) {
+                const cage_ball made = {3 * r, -r, 0, r};
+                ball[i] = made;
+            }
+            cage_arena_init(&arena, block, ARENA);
+            slice_of(&arena, dim, ball, 1, &slice);
+            ck_assert_int_eq(cage_chart_make(&arena, &slice, &one), CAGE_OK);
+            for (int32_t count = 2; count <= MANY; count *= 2) {
+                cage_arena_init(&arena, block, ARENA);
+                slice_of(&arena, dim, ball, count, &slice);
+                ck_assert_int_eq(cage_chart_make(&arena, &slice, &chart), CAGE_OK);
+                ck_assert_int_le(chart.words, one.words + count * (dim + 2)); /* at most each ball once, in one list */
+                compare_balls(dim, ball, count, 4, "coincident");
             }
         }
 }
@@ -640,6 +671,7 @@ int main(void)
     tcase_add_loop_test(tests, charts_of_ball_sets, 0, 2);
     tcase_add_loop_test(tests, charts_of_lattices, 0, 2);
     tcase_add_test(tests, pockets_that_just_close);
+    tcase_add_test(tests, coincident_balls_count_once);
     tcase_add_test(tests, charts_of_few_balls);
     tcase_add_loop_test(tests, memory_sweep, 0, 8);
     int status = test_main(suite);

@@ -191,6 +191,57 @@ START_TEST(space_is_the_same)
 }
 END_TEST
 
+/* The atlas, made with these workers (null: none) in portions; its size, or an error. */
+static int64_t survey_with(const cage_scene *view, int32_t level, const cage_workers *workers, int64_t portion, unsigned char *out)
+{
+    cage_plan plan;
+    cage_survey *survey;
+    int32_t state;
+    cage_plan_default(&plan);
+    plan.level = level;
+    plan.max_cells = view->dim == 2 ? 24 : 0;
+    ck_assert_int_eq(cage_survey_begin(&survey, view, &plan, block, PLENTY), CAGE_OK);
+    do {
+        state = cage_survey_run_with(survey, portion, workers);
+    } while (state == 0);
+    if (state < 0)
+        return state;
+    size_t size = cage_survey_atlas(survey, NULL, 0);
+    ck_assert_uint_le(size, PLENTY / 2);
+    ck_assert_uint_eq(cage_survey_atlas(survey, out, PLENTY / 2), size);
+    return (int64_t)size;
+}
+
+START_TEST(atlas_is_the_same)
+{
+    done_by_workers = 0;
+    for (uint64_t seed = 700; seed < 701 + (uint64_t)test_scenes(60) / 10; seed++) {
+        scene s;
+        space_scene t;
+        scene_random(seed, &s);
+        space_random(seed, &t);
+        cage_scene view = seed % 3 ? scene_view(&s) : space_view(&t);
+        int32_t level = seed % 3 ? (int32_t)(seed % 5) % 3 : 0, three = 3;
+        int64_t right = survey_with(&view, level, NULL, INT64_MAX, spare);
+        ck_assert_int_gt(right, 0);
+        crew c = {2, 0, 0, NULL, NULL, PTHREAD_MUTEX_INITIALIZER};
+        for (int kind = 0; kind < 4; kind++) {
+            cage_workers workers = {3, kind == 1 ? lazy : backwards, &three, help, kind == 2 ? HELP / 60 : HELP};
+            if (kind == 0) {
+                workers.count = 2;
+                workers.run = by_threads;
+                workers.context = &c;
+            }
+            int64_t size = survey_with(&view, level, &workers, kind == 3 ? 17 : INT64_MAX, spare + PLENTY / 2);
+            ck_assert_msg(size == right && memcmp(spare, spare + PLENTY / 2, (size_t)right) == 0, "seed %lu: workers %d: another atlas",
+                          (unsigned long)seed, kind);
+        }
+    }
+    printf("workers: %ld slices and gluings of atlases\n", done_by_workers);
+    ck_assert_int_gt(done_by_workers, 0);
+}
+END_TEST
+
 START_TEST(bad_workers_are_refused)
 {
     scene s;
@@ -223,6 +274,7 @@ int main(void)
     tcase_add_unchecked_fixture(tests, blocks_make, blocks_drop);
     tcase_add_test(tests, plane_is_the_same);
     tcase_add_test(tests, space_is_the_same);
+    tcase_add_test(tests, atlas_is_the_same);
     tcase_add_test(tests, bad_workers_are_refused);
     return test_main(suite);
 }
