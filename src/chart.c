@@ -1,15 +1,16 @@
 /* chart: a tree of boxes that tells which component of a slice a grid point lies in.
  *
- * In a box a ball matters only if it meets the box, and nowhere in it is farther, in power, than some other one: what it covers
- * there the other covers too. A point off those that matter is off every ball and lies in a free simplex, which tells its
- * component (location lemma). When few balls matter, and few free simplices but for those of one component meet the box, they
- * are listed. Else the box is halved along each axis; a box of one point always ends it. */
+ * In a box a ball matters only if it meets the box, and somewhere in it is nearer, in power, than the one nearest to its middle:
+ * else that one covers there what it covers. A point off those that matter is off every ball and lies in a free simplex, which
+ * tells its component (location lemma). When few balls matter, and few free simplices but for those of one component meet
+ * the box, they are listed. Else the box is halved along each axis; a box of one point always ends it. */
 #include "chart.h"
 #include "box.h"
 
 #include <string.h>
 
-enum { LEVELS = 31, NO_WORD = -1, PHANTOM = -2, HASHES = 1024, LONGEST = 2 + CAGE_CHART_BALLS_3D + 5 * CAGE_CHART_SIMPLICES };
+enum { LEVELS = 31, NO_WORD = -1, PHANTOM = -2, HASHES = 1024 };
+enum { LONGEST = 2 + CAGE_CHART_BALLS_3D + 5 * CAGE_CHART_SIMPLICES };
 
 /* What becomes of a box without an entry. */
 enum { HALVE = -1, NO_ROOM = -2 };
@@ -158,14 +159,15 @@ static int32_t usual(const struct draft *draft, int32_t count)
 
 /* ---- which balls matter in a box ------------------------------------------------------------------------ */
 
-/* Is a nearer than b in power all over the box? |z|^2 - r^2 < 2^59.1, differences of centres < 2^29, corners < 2^28: < 2^61. */
+/* Is a as near in power as b, or nearer, all over the box? |z|^2 - r^2 < 2^59.1, differences of centres < 2^29, corners
+ * < 2^28: < 2^61. */
 static bool is_nearer(const struct cage_site *a, const struct cage_site *b, const struct cage_box *box)
 {
     int64_t d[3], least = b->h - a->h;
     cage_difference(b, a, d);
     for (int32_t k = 0; k < 3; k++)
         least -= 2 * d[k] * (d[k] > 0 ? box->high[k] : box->low[k]);
-    return least > 0;
+    return least >= 0;
 }
 
 /* May they meet? Sums are within CAGE_REACH. */

@@ -112,7 +112,8 @@ static void show_progress(const cage_survey_result *work, double seconds)
 }
 
 /* One attempt in a block of that size: CAGE_OK, or an error; *needed is then a block that gets further. */
-static int32_t attempt(const cage_scene *scene, const cage_plan *plan, host_built *made, size_t bytes, int progress, uint64_t *needed)
+static int32_t attempt(const cage_scene *scene, const cage_plan *plan, host_built *made, size_t bytes, int progress,
+                       uint64_t *needed)
 {
     const uint64_t pairs = (uint64_t)scene->object.outer_count * (uint64_t)scene->obstacles.outer_count;
     cage_workers workers;

@@ -27,6 +27,7 @@ void host_report_atlas(FILE *out, const char *path, const host_built *made, doub
 void host_report_atlas_json(FILE *out, const host_built *made, double unit);
 
 /* Where the large bounded outer classes join others or the outside when all balls shrink: a table, by proofs of its own. */
-int host_print_passages(FILE *out, const cage_scene *scene, const host_built *made, double unit, int32_t rounds, host_error *error);
+int host_print_passages(FILE *out, const cage_scene *scene, const host_built *made, double unit, int32_t rounds,
+                        host_error *error);
 
 #endif

@@ -105,7 +105,8 @@ void host_report_atlas_json(FILE *out, const host_built *made, double unit)
     (void)fprintf(out, "  \"slices\": [%ld, %ld],\n  \"gluings\": [%ld, %ld],\n  \"balls\": [%lld, %lld],\n", (long)work->slices[0],
                   (long)work->slices[1], (long)work->gluings[0], (long)work->gluings[1], (long long)work->balls[0],
                   (long long)work->balls[1]);
-    (void)fprintf(out, "  \"peak_bytes\": %llu,\n  \"seconds\": %.6f,\n  \"side\": %ld", (unsigned long long)work->peak_bytes, made->seconds, (long)made->atlas.side);
+    (void)fprintf(out, "  \"peak_bytes\": %llu,\n  \"seconds\": %.6f,\n  \"side\": %ld", (unsigned long long)work->peak_bytes,
+                  made->seconds, (long)made->atlas.side);
     json_side(out, "inner", &made->atlas, CAGE_SIDE_INNER, unit);
     json_side(out, "outer", &made->atlas, CAGE_SIDE_OUTER, unit);
     (void)fprintf(out, "\n}\n");

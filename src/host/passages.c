@@ -25,8 +25,8 @@ static int pose_of(const cage_atlas *atlas, int32_t class, double unit, cage_pos
 }
 
 /* By shrinking all balls, between all pairs of the largest bounded outer classes, and from each to the outside. */
-static int find_passages(const cage_scene *scene, const host_built *made, double unit, int32_t rounds, passage *list, int32_t *count,
-                         host_error *error)
+static int find_passages(const cage_scene *scene, const host_built *made, double unit, int32_t rounds, passage *list,
+                         int32_t *count, host_error *error)
 {
     host_row *rows = host_rows(&made->atlas, CAGE_SIDE_OUTER);
     size_t size = HOST_FIRST_BLOCK;
@@ -60,7 +60,7 @@ static void print_passages(FILE *out, const passage *list, int32_t count, const 
 {
     int32_t i;
 
-    (void)fprintf(out, "\nPassages: two outer classes join when every radius shrinks by (the first does not do, the second does)\n");
+    (void)fprintf(out, "\nPassages: two outer classes join when every radius shrinks by (not by the first, by the second)\n");
     for (i = 0; i < count; i++) {
         const cage_margin *margin = &list[i].margin;
         host_pose narrow;
@@ -78,7 +78,8 @@ static void print_passages(FILE *out, const passage *list, int32_t count, const 
     }
 }
 
-int host_print_passages(FILE *out, const cage_scene *scene, const host_built *made, double unit, int32_t rounds, host_error *error)
+int host_print_passages(FILE *out, const cage_scene *scene, const host_built *made, double unit, int32_t rounds,
+                        host_error *error)
 {
     passage list[MOST_PASSAGES];
     int32_t count;
