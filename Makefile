@@ -53,7 +53,7 @@ demo: build/cage ## prove the example scenes: verdicts as a table, pictures in b
 TESTS   = $(sort $(wildcard tests/test_*.c))
 HELPERS = $(filter-out $(wildcard tests/soak*.c) $(TESTS),$(sort $(wildcard tests/*.c)))
 TEST_I  = -iquote src -iquote tests -Iinclude
-SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all
+SANITIZE = -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
 
 # $(1): directory of objects, $(2): more flags
 define test_build

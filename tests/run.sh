@@ -12,7 +12,8 @@ add() { # NAME COMMAND
     echo "$2" > "$out/$id.sh"
 }
 
-quick='CK_FORK=no CAGE_TEST_QUICK=1'
+quick='CK_FORK=no CAGE_TEST_QUICK=10'
+slow='CK_FORK=no CAGE_TEST_QUICK=40'
 memcheck='valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=all'
 for source in tests/test_*.c; do
     test=$(basename "$source" .c)
@@ -20,7 +21,9 @@ for source in tests/test_*.c; do
     add "$test, ASan and UBSan" "$quick CAGE_TEST_SCENES=20 build/sanitized/$test"
 done
 for name in wide arena component glue store pose refuse; do
-    add "test_$name, Valgrind" "$quick CAGE_TEST_SCENES=2 $memcheck build/test/test_$name"
+    part=$slow
+    if [ $name = component ]; then part=$quick; fi # it asks how many of its scenes were decided
+    add "test_$name, Valgrind" "$part CAGE_TEST_SCENES=2 $memcheck build/test/test_$name"
 done
 add "the command, Valgrind" "$memcheck build/cage prove --object examples/walls/plus.xyzr --obstacles examples/walls/walls_R10.xyzr \
   --start 300,320,45 --svg build/test/walls.svg --json"

@@ -25,7 +25,7 @@ int64_t test_spread(uint64_t *state, int64_t limit);
 /* Shuffle 0..count-1 into order. */
 void test_shuffle(uint64_t *state, int32_t *order, int32_t count);
 
-/* full, or a tenth of it (never 0) when CAGE_TEST_QUICK is set in the environment, as under Valgrind. */
+/* full, or that part of it (never 0) that CAGE_TEST_QUICK says in the environment: 10 means a tenth. */
 int32_t test_rounds(int32_t full);
 
 /* How many scenes to try: the number in CAGE_TEST_SCENES, or full where that is not set; never 0. */

@@ -413,7 +413,7 @@ static void compare_scene(const cage_scene *view, uint64_t seed)
 
 START_TEST(charts_of_plane_scenes)
 {
-    int32_t rounds = test_rounds(250);
+    int32_t rounds = test_rounds(120);
     memset(&seen, 0, sizeof seen);
     for (int32_t seed = 0; seed < rounds; seed++) {
         scene s;
@@ -444,7 +444,7 @@ END_TEST
 /* Many components next to contact. */
 START_TEST(charts_of_pockets)
 {
-    int32_t dim = 2 + _i, rounds = test_rounds(dim == 2 ? 600 : 200);
+    int32_t dim = 2 + _i, rounds = test_rounds(dim == 2 ? 300 : 100);
     memset(&seen, 0, sizeof seen);
     for (int32_t seed = 0; seed < rounds; seed++)
         for (int32_t i = 0; i < 2; i++) {
