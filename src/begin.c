@@ -31,7 +31,7 @@ static int32_t limits_check(const cage_limits *limits, int32_t dim)
     return limits->start_level < -1 || limits->start_level > limits->max_level ? CAGE_ERROR_ARGUMENT : CAGE_OK;
 }
 
-/* The coarsest level at which the object's farthest ball moves by no more than a third of the radius of a usual
+/* The coarsest level at which the object's farthest ball moves by no more than half the radius of a usual
  * collision ball: in coarser cells the inner balls shrink to little, and what is left has holes everywhere. In space,
  * twice the radius: there a level too fine costs 8 times as much, and one too coarse is soon found out. */
 static int32_t first_level(const struct cage_proof *proof)
@@ -51,7 +51,7 @@ static int32_t first_level(const struct cage_proof *proof)
         sum += side->object[a].r;
     radius += sum / side->objects;
     struct cage_cell cell = {0, 0, {0, 0, 0}};
-    int64_t most = proof->scene.dim == 2 ? radius / 3 : 2 * radius;
+    int64_t most = proof->scene.dim == 2 ? radius / 2 : 2 * radius;
     while (level < proof->limits.max_level && cage_displacement(proof->graph.fibre->turn(&cell), reach) > most) {
         proof->graph.fibre->child(&cell, 0, &cell);
         level++;
