@@ -202,8 +202,8 @@ typedef struct cage_margin {
     int32_t bounded;  /* 1; 0: grown as far as the grid allows it was not closed, and `closed` says nothing */
     int32_t known;    /* 1: narrow is set */
     int32_t pivot[3]; /* of the object, as in cage_result */
-    cage_pose narrow; /* on the path found for `open`: where the balls as given come closest, or overlap most (x is where the
-                         pivot is) */
+    cage_pose narrow; /* on the path found for `open`, its poses and straight legs: where the balls as given come closest, or
+                         overlap most (x is where the pivot is) */
 } cage_margin;
 
 /* Find it with so many proofs by bisection, and as many as the first bounds take. The number that ranks grasps: how tight a cage

@@ -36,15 +36,6 @@ bool cage_box_make(const struct cage_slice *slice, const int32_t *simplex, int32
     return simplices > 0;
 }
 
-bool cage_box_meets(const struct cage_box *box, const struct cage_site *ball)
-{
-    const int64_t at[3] = {ball->x, ball->y, ball->z};
-    bool meets = true;
-    for (int32_t k = 0; k < 3; k++)
-        meets = meets && at[k] + ball->r >= box->low[k] && at[k] - ball->r <= box->high[k];
-    return meets;
-}
-
 bool cage_box_is_held(const struct cage_box *box, const struct cage_site *ball)
 {
     const int64_t at[3] = {ball->x, ball->y, ball->z};

@@ -13,8 +13,15 @@ struct cage_box {
  * to be had. */
 bool cage_box_make(const struct cage_slice *slice, const int32_t *simplex, int32_t simplices, struct cage_box *box);
 
-/* Does the closed ball meet it (or nearly)? Does it hold all of it? */
-bool cage_box_meets(const struct cage_box *box, const struct cage_site *ball);
+/* Does the closed ball meet it (or nearly)? */
+static CAGE_INLINE bool cage_box_meets(const struct cage_box *box, const struct cage_site *ball)
+{
+    int64_t x = ball->x, y = ball->y, z = ball->z, r = ball->r;
+    return (x + r >= box->low[0]) & (x - r <= box->high[0]) & (y + r >= box->low[1]) & (y - r <= box->high[1]) &
+           (z + r >= box->low[2]) & (z - r <= box->high[2]);
+}
+
+/* Does it hold all of it? */
 bool cage_box_is_held(const struct cage_box *box, const struct cage_site *ball);
 
 #endif

@@ -170,13 +170,6 @@ static bool is_nearer(const struct cage_site *a, const struct cage_site *b, cons
     return least >= 0;
 }
 
-/* May they meet? Sums are within CAGE_REACH. */
-static CAGE_INLINE bool is_near(const struct cage_site *ball, const struct cage_box *box)
-{
-    return (ball->x + ball->r >= box->low[0]) & (ball->x - ball->r <= box->high[0]) & (ball->y + ball->r >= box->low[1]) &
-           (ball->y - ball->r <= box->high[1]) & (ball->z + ball->r >= box->low[2]) & (ball->z - ball->r <= box->high[2]);
-}
-
 /* Those of the sites that matter; -1: one of them holds the box. */
 static int32_t choose(const struct draft *draft, const struct cage_box *box, const int32_t *from, int32_t count, int32_t *to)
 {
@@ -186,7 +179,7 @@ static int32_t choose(const struct draft *draft, const struct cage_box *box, con
     int32_t met = 0, kept = 0;
     int64_t least = INT64_MAX;
     for (int32_t i = 0; i < count; i++) {
-        if (!is_near(&site[from[i]], box))
+        if (!cage_box_meets(box, &site[from[i]]))
             continue;
         int64_t power = cage_power(&site[from[i]], middle);
         to[met++] = from[i];

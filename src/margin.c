@@ -60,12 +60,12 @@ static int32_t clearance(const cage_scene *scene, const int32_t pivot[3], const 
         cage_rotate(&rotation, from, at);
         for (int32_t j = 0; j < scene->obstacles.outer_count; j++) {
             const cage_ball *x = &scene->obstacles.outer[j];
-            int64_t square = 0;
+            cage_i128 square = cage_i128_of(0); /* a path may go far outside: differences < 2^32 */
             for (int32_t k = 0; k < 3; k++) {
-                int64_t apart = (int64_t)pose->x[k] + at[k] - (k == 0 ? x->x : k == 1 ? x->y : x->z); /* < 2^31 */
-                square += apart * apart;
+                int64_t apart = (int64_t)pose->x[k] + at[k] - (k == 0 ? x->x : k == 1 ? x->y : x->z);
+                square = cage_i128_add(square, cage_i128_mul(apart, apart));
             }
-            int64_t gap = (int64_t)cage_u128_root(cage_i128_of(square)) - x->r - y->r;
+            int64_t gap = (int64_t)cage_u128_root(square) - x->r - y->r;
             least = gap < least ? (int32_t)gap : least;
         }
     }
@@ -83,8 +83,8 @@ static int64_t length_of(const cage_pose *from, const cage_pose *to)
     return (int64_t)cage_u128_root(square);
 }
 
-/* The place on the path where the balls as given come closest, or overlap most, as finely as PARTS of a leg. Moved by some
- * length, the clearance changes by no more than that, so wide places are passed quickly. */
+/* The place on the path's poses and straight legs where the balls as given come closest, or overlap most, as finely as PARTS of
+ * a leg. Moved by some length, the clearance changes by no more than that, so wide places are passed quickly. */
 static void find_narrow(struct trial *trial, const cage_result *proof)
 {
     enum { PARTS = 1024 };
@@ -93,7 +93,7 @@ static void find_narrow(struct trial *trial, const cage_result *proof)
     for (int32_t n = 0; n < proof->path_count; n++) {
         const cage_pose *from = &proof->path[n], *to = n + 1 < proof->path_count ? from + 1 : from;
         int64_t length = length_of(from, to), part = 0;
-        while (part == 0 || (part < PARTS && to != from)) {
+        while (part == 0 || (part < PARTS && length > 1)) { /* a turn is looked at where it begins */
             cage_pose pose = *from;
             for (int32_t k = 0; k < 3; k++)
                 pose.x[k] += (int32_t)(((int64_t)to->x[k] - from->x[k]) * part / PARTS);

@@ -10,22 +10,9 @@
 #include "random.h"
 #include "scenes.h"
 #include "scenes_space.h"
+#include "sealed.h"
 
 enum { CHANGES = 400, QUESTIONS = 12, ROOM = 64 << 20 };
-
-static void set_word(unsigned char *byte, size_t word, uint32_t value)
-{
-    for (int i = 0; i < 4; i++)
-        byte[4 * word + (size_t)i] = (unsigned char)(value >> (8 * i));
-}
-
-static void sign(unsigned char *byte, size_t size)
-{
-    const size_t from = 4 * (CAGE_ATLAS_SUM + 2);
-    uint64_t sum = cage_atlas_sum(cage_atlas_sum(0, byte, 4 * CAGE_ATLAS_SUM), byte + from, size - from);
-    set_word(byte, CAGE_ATLAS_SUM, (uint32_t)sum);
-    set_word(byte, CAGE_ATLAS_SUM + 1, (uint32_t)(sum >> 32));
-}
 
 /* Words near the head matter most; small numbers and single bits get furthest. */
 static void change(uint64_t *state, unsigned char *byte, size_t words)
@@ -36,11 +23,11 @@ static void change(uint64_t *state, unsigned char *byte, size_t words)
         now = now << 8 | byte[4 * at + (size_t)i];
     uint32_t drawn = (uint32_t)random_next(state);
     switch (random_next(state) % 5) {
-    case 0: set_word(byte, at, drawn); break;
-    case 1: set_word(byte, at, drawn % 64); break;
-    case 2: set_word(byte, at, now ^ (uint32_t)1 << drawn % 32); break;
-    case 3: set_word(byte, at, now + drawn % 9 - 4); break;
-    default: set_word(byte, at, drawn % (uint32_t)(2 * words)); break;
+    case 0: sealed_put(byte, at, drawn); break;
+    case 1: sealed_put(byte, at, drawn % 64); break;
+    case 2: sealed_put(byte, at, now ^ (uint32_t)1 << drawn % 32); break;
+    case 3: sealed_put(byte, at, now + drawn % 9 - 4); break;
+    default: sealed_put(byte, at, drawn % (uint32_t)(2 * words)); break;
     }
 }
 
@@ -101,7 +88,7 @@ int main(int argc, char **argv)
             memcpy(copy, byte, size);
             for (uint64_t i = 1 + random_next(&state) % 4; i > 0; i--)
                 change(&state, copy, size / 4);
-            sign(copy, size);
+            sealed_sum(copy, size);
             changed++;
             if (cage_atlas_open(&atlas, copy, size) != CAGE_OK)
                 continue;

@@ -15,6 +15,7 @@
 #include "referee.h"
 #include "scenes.h"
 #include "scenes_space.h"
+#include "sealed.h"
 
 #define PLENTY ((size_t)256 << 20)
 
@@ -1025,20 +1026,6 @@ END_TEST
 
 /* ---- damage that the sum does not show ------------------------------------------------------------------ */
 
-static void put_word(unsigned char *byte, size_t at, uint32_t value)
-{
-    for (int k = 0; k < 4; k++)
-        byte[4 * at + (size_t)k] = (unsigned char)(value >> (8 * k));
-}
-
-static void put_sum(unsigned char *byte, size_t size)
-{
-    const size_t from = 4 * (CAGE_ATLAS_SUM + 2);
-    uint64_t sum = cage_atlas_sum(cage_atlas_sum(0, byte, 4 * CAGE_ATLAS_SUM), byte + from, size - from);
-    put_word(byte, CAGE_ATLAS_SUM, (uint32_t)sum);
-    put_word(byte, CAGE_ATLAS_SUM + 1, (uint32_t)(sum >> 32));
-}
-
 static bool is_answer(int32_t verdict) { return verdict < 0 || (verdict >= CAGE_UNDEFINED && verdict <= CAGE_IN_COLLISION); }
 
 /* Anything may be said, nothing may go wrong. */
@@ -1086,7 +1073,7 @@ static void damage(const struct made *m, unsigned char *byte, uint64_t *state)
             uint32_t was = word(m, (uint32_t)at);
             const uint32_t values[8] = {was + 1, was - 1, was ^ 1u << test_between(state, 0, 31), (uint32_t)random_next(state),
                                         (uint32_t)test_between(state, 0, (int64_t)words), 0x7fffffff, 0x80000000, UINT32_MAX};
-            put_word(byte, at, values[test_between(state, 0, 7)]);
+            sealed_put(byte, at, values[test_between(state, 0, 7)]);
         }
     }
 }
@@ -1106,7 +1093,7 @@ START_TEST(hidden_damage_is_harmless)
         cage_atlas atlas;
         memcpy(byte, m.byte, m.size);
         damage(&m, byte, &state);
-        put_sum(byte, m.size);
+        sealed_sum(byte, m.size);
         int32_t error = cage_atlas_open(&atlas, byte, m.size);
         test_require(error == CAGE_OK || error == CAGE_ERROR_ATLAS);
         opened += error == CAGE_OK;

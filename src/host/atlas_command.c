@@ -111,28 +111,36 @@ static void show_progress(const cage_survey_result *work, double seconds)
     (void)fflush(stderr);
 }
 
-/* One attempt in a block of that size: CAGE_OK, or an error; *needed is then a block that gets further. */
-static int32_t attempt(const cage_scene *scene, const cage_plan *plan, host_built *made, size_t bytes, int progress,
-                       uint64_t *needed)
+typedef struct job {
+    const cage_scene *scene;
+    const cage_plan *plan;
+    host_built *made;
+    int progress;
+} job;
+
+static int32_t attempt(void *data, void *block, size_t bytes, uint64_t *needed)
 {
+    const job *todo = data;
+    const cage_scene *scene = todo->scene;
+    host_built *made = todo->made;
     const uint64_t pairs = (uint64_t)scene->object.outer_count * (uint64_t)scene->obstacles.outer_count;
     cage_workers workers;
     host_threads *crew = NULL;
     cage_survey *survey;
     double begun = host_now(), shown = begun;
-    int32_t state = cage_survey_begin(&survey, scene, plan, made->block, bytes);
+    int32_t state = cage_survey_begin(&survey, scene, todo->plan, block, bytes);
     size_t size;
 
     if (state != CAGE_OK)
         return state;
     crew = made->threads > 1 ? host_threads_start(made->threads, pairs, &workers) : NULL;
     while ((state = cage_survey_run_with(survey, crew ? STEPS_TOGETHER : STEPS_A_TURN, crew ? &workers : NULL)) == 0)
-        if (progress && host_now() - shown > 0.1) {
+        if (todo->progress && host_now() - shown > 0.1) {
             shown = host_now();
             show_progress(cage_survey_result_of(survey), shown - begun);
         }
     host_threads_stop(crew);
-    if (progress && shown > begun)
+    if (todo->progress && shown > begun)
         (void)fprintf(stderr, "\r%90s\r", "");
     made->work = *cage_survey_result_of(survey);
     *needed = made->work.needed_bytes;
@@ -144,38 +152,6 @@ static int32_t attempt(const cage_scene *scene, const cage_plan *plan, host_buil
         return CAGE_ERROR_MEMORY;
     made->seconds = host_now() - begun;
     return cage_atlas_open(&made->atlas, made->bytes, size);
-}
-
-/* In a block of the size given, or (bytes null) in one that grows until it is large enough. */
-static int build(const cage_scene *scene, const cage_plan *plan, const size_t *bytes, int progress, host_built *made,
-                 host_error *error)
-{
-    const size_t wanted = cage_survey_size(scene, plan);
-    size_t least = bytes != NULL ? *bytes + 1 : wanted > HOST_LEAST_BLOCK ? wanted : HOST_LEAST_BLOCK;
-    size_t size = bytes != NULL ? *bytes : wanted > HOST_FIRST_BLOCK ? wanted : HOST_FIRST_BLOCK;
-
-    for (;;) {
-        uint64_t needed = wanted;
-        int32_t state;
-
-        made->block = host_take_block(&size, least);
-        if (made->block == NULL)
-            return host_fail(error, HOST_MEMORY, "memory: a block of %zu bytes was needed and is not to be had", size);
-        state = attempt(scene, plan, made, size, progress, &needed);
-        if (state == CAGE_OK)
-            return HOST_OK;
-        if (state != CAGE_ERROR_MEMORY)
-            return host_fail(error, HOST_BAD_INPUT, "the scene is not accepted: %.200s", cage_error_text(state));
-        if (needed <= size)
-            needed = (uint64_t)size + 1;
-        if (bytes != NULL || size > HOST_LARGEST_BLOCK / 2 || needed > HOST_LARGEST_BLOCK)
-            return host_fail(error, HOST_MEMORY, "memory: %zu bytes were too few; at least %llu are needed (--memory %llu)",
-                             size, (unsigned long long)needed, (unsigned long long)needed);
-        free(made->block);
-        made->block = NULL;
-        size = needed > 2 * size ? (size_t)needed : 2 * size;
-        least = size;
-    }
 }
 
 /* ---- files ---------------------------------------------------------------------------------------------- */
@@ -246,6 +222,7 @@ static int read_scene(const options *given, host_query *query, host_grid *grid, 
 static int run(const options *given, host_query *query, host_grid *grid, host_built *made, host_error *error)
 {
     cage_plan plan;
+    job todo = { &grid->scene, &plan, made, !given->quiet && isatty(STDERR_FILENO) };
     size_t bytes = 0;
     int32_t rounds = 0;
     int code = HOST_OK;
@@ -269,8 +246,8 @@ static int run(const options *given, host_query *query, host_grid *grid, host_bu
     if (code == HOST_OK)
         code = host_check_writable("--c-header", given->header, error);
     if (code == HOST_OK)
-        code = build(&grid->scene, &plan, given->memory != NULL ? &bytes : NULL, !given->quiet && isatty(STDERR_FILENO), made,
-                     error);
+        code = host_in_block(cage_survey_size(&grid->scene, &plan), given->memory != NULL ? &bytes : NULL, attempt, &todo,
+                             &made->block, "scene", error);
     if (code == HOST_OK)
         code = write_atlas(given->output, made, error);
     if (code == HOST_OK && given->header != NULL)

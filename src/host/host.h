@@ -113,6 +113,14 @@ double host_now(void);
 /* A block of the size, or of less if it need not be all of it; null if none of at least that is to be had. */
 void *host_take_block(size_t *size, size_t least);
 
+/* One attempt in a block of that size: CAGE_OK, or an error; *needed is then a block that gets further. */
+typedef int32_t host_attempt(void *data, void *block, size_t bytes, uint64_t *needed);
+
+/* Attempts in a block of the size given, or (bytes null) in one that grows from the size wanted until it is large enough.
+ * The block is the caller's to free, whatever the outcome; subject: what an error says was not accepted. */
+int host_in_block(size_t wanted, const size_t *bytes, host_attempt *attempt, void *data, void **block, const char *subject,
+                  host_error *error);
+
 /* ---- number.c --------------------------------------------------------------------------------- */
 
 int host_fail(host_error *error, int code, const char *format, ...)

@@ -124,3 +124,33 @@ void *host_take_block(size_t *size, size_t least)
     }
     return block;
 }
+
+int host_in_block(size_t wanted, const size_t *bytes, host_attempt *attempt, void *data, void **block, const char *subject,
+                  host_error *error)
+{
+    size_t least = bytes != NULL ? *bytes + 1 : wanted > HOST_LEAST_BLOCK ? wanted : HOST_LEAST_BLOCK;
+    size_t size = bytes != NULL ? *bytes : wanted > HOST_FIRST_BLOCK ? wanted : HOST_FIRST_BLOCK;
+
+    for (;;) {
+        uint64_t needed = wanted;
+        int32_t state;
+
+        *block = host_take_block(&size, least);
+        if (*block == NULL)
+            return host_fail(error, HOST_MEMORY, "memory: a block of %zu bytes was needed and is not to be had", size);
+        state = attempt(data, *block, size, &needed);
+        if (state == CAGE_OK)
+            return HOST_OK;
+        if (state != CAGE_ERROR_MEMORY)
+            return host_fail(error, HOST_BAD_INPUT, "the %s is not accepted: %.200s", subject, cage_error_text(state));
+        if (needed <= size)
+            needed = (uint64_t)size + 1;
+        if (bytes != NULL || size > HOST_LARGEST_BLOCK / 2 || needed > HOST_LARGEST_BLOCK)
+            return host_fail(error, HOST_MEMORY, "memory: %zu bytes were too few; at least %llu are needed (--memory %llu)",
+                             size, (unsigned long long)needed, (unsigned long long)needed);
+        free(*block);
+        *block = NULL;
+        size = needed > 2 * size ? (size_t)needed : 2 * size;
+        least = size;
+    }
+}

@@ -187,9 +187,16 @@ static int32_t run_proof(const host_answer *answer, int32_t threads, int progres
     return state;
 }
 
-/* One attempt in a block of that size: CAGE_OK, or an error; *needed is then a block that gets further. */
-static int32_t attempt(host_answer *answer, void *block, size_t bytes, int32_t threads, int progress, uint64_t *needed)
+typedef struct job {
+    host_answer *answer;
+    int32_t threads;
+    int progress;
+} job;
+
+static int32_t attempt(void *data, void *block, size_t bytes, uint64_t *needed)
 {
+    const job *todo = data;
+    host_answer *answer = todo->answer;
     const host_grid *grid = answer->grid;
     double begun = host_now();
     int32_t state;
@@ -198,44 +205,12 @@ static int32_t attempt(host_answer *answer, void *block, size_t bytes, int32_t t
     state = cage_prove_begin(&answer->proof, &grid->scene, &grid->start,
                              answer->query->has_goal ? &grid->goal : NULL, answer->limits, block, bytes);
     if (state == CAGE_OK) {
-        state = run_proof(answer, threads, progress, begun);
+        state = run_proof(answer, todo->threads, todo->progress, begun);
         answer->result = cage_prove_result(answer->proof);
         *needed = answer->result->needed_bytes;
     }
     answer->seconds = host_now() - begun;
     return state < 0 ? state : CAGE_OK;
-}
-
-/* Proves in a block of the size given, or (bytes null) in one that doubles until it is large enough.
- * The block is the caller's to free, whatever the outcome. */
-static int prove(host_answer *answer, const size_t *bytes, int32_t threads, int progress, void **block, host_error *error)
-{
-    const size_t wanted = cage_prove_size(&answer->grid->scene, answer->limits);
-    size_t least = bytes != NULL ? *bytes + 1 : wanted > HOST_LEAST_BLOCK ? wanted : HOST_LEAST_BLOCK;
-    size_t size = bytes != NULL ? *bytes : wanted > HOST_FIRST_BLOCK ? wanted : HOST_FIRST_BLOCK;
-
-    for (;;) {
-        uint64_t needed = wanted;
-        int32_t state;
-
-        *block = host_take_block(&size, least);
-        if (*block == NULL)
-            return host_fail(error, HOST_MEMORY, "memory: a block of %zu bytes was needed and is not to be had", size);
-        state = attempt(answer, *block, size, threads, progress, &needed);
-        if (state == CAGE_OK)
-            return HOST_OK;
-        if (state != CAGE_ERROR_MEMORY)
-            return host_fail(error, HOST_BAD_INPUT, "the query is not accepted: %.200s", cage_error_text(state));
-        if (needed <= size)
-            needed = (uint64_t)size + 1;
-        if (bytes != NULL || size > HOST_LARGEST_BLOCK / 2 || needed > HOST_LARGEST_BLOCK)
-            return host_fail(error, HOST_MEMORY,
-                             "memory: %zu bytes were too few; at least %llu are needed (--memory %llu)", size,
-                             (unsigned long long)needed, (unsigned long long)needed);
-        free(*block);
-        size = needed > 2 * size ? (size_t)needed : 2 * size;
-        least = size;
-    }
 }
 
 /* ---- the answer ----------------------------------------------------------------------------------- */
@@ -317,6 +292,7 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
 {
     host_answer answer;
     cage_limits limits;
+    job todo;
     double unit = 0;
     size_t bytes = 0;
     int32_t threads = given->memory != NULL ? 1 : host_threads_cores();
@@ -349,7 +325,11 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
     answer.query = query;
     answer.grid = grid;
     answer.limits = &limits;
-    code = prove(&answer, given->memory != NULL ? &bytes : NULL, threads, progress, block, error);
+    todo.answer = &answer;
+    todo.threads = threads;
+    todo.progress = progress;
+    code = host_in_block(cage_prove_size(&grid->scene, &limits), given->memory != NULL ? &bytes : NULL, attempt, &todo, block,
+                         "query", error);
     return code == HOST_OK ? show_answer(given, &answer, error) : code;
 }
 
