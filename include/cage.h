@@ -48,7 +48,7 @@ extern "C" {
 #define CAGE_ERROR_RANGE (-3)     /* the scene or a pose does not fit CAGE_REACH */
 #define CAGE_ERROR_RADIUS (-4)    /* a negative radius */
 #define CAGE_ERROR_ROTATION (-5)  /* a quaternion of zero, too large, or not about z in the plane */
-#define CAGE_ERROR_ATLAS (-7)     /* the bytes are no atlas of this version, or were changed */
+#define CAGE_ERROR_ATLAS (-7)     /* the bytes are no atlas (or facts) of this version, or were changed */
 #define CAGE_ERROR_MEMORY (-6)    /* the block is too small: to begin see cage_prove_size, once begun cage_result.needed_bytes */
 
 /* ---- verdicts ----------------------------------------------------------------------------------- */
@@ -279,6 +279,20 @@ const cage_survey_result *cage_survey_result_of(const cage_survey *survey);
 
 /* The size of the finished atlas (0: it is not finished), written to out (aligned to 4 bytes or not) if it has as many bytes. */
 size_t cage_survey_atlas(const cage_survey *survey, void *out, size_t bytes);
+
+/* What was found out so far, and the cells that were cut, as bytes: a build that is interrupted goes on from them, on whatever
+ * machine. The size, written to out (aligned or not) if it has as many bytes; at any time, after an error too. */
+size_t cage_survey_facts(const cage_survey *survey, void *out, size_t bytes);
+
+/* Take over such facts, once or several times, before the first step: the atlas is the same, what they tell is not worked out
+ * again (nor counted in the result). CAGE_ERROR_ATLAS, and nothing is taken, if the bytes were changed or are those of another
+ * scene, another plan or another version: facts are believed. After CAGE_ERROR_MEMORY see needed_bytes, and begin anew. */
+int32_t cage_survey_learn(cage_survey *survey, const void *bytes, size_t size);
+
+/* Before the first step: work on a part only, one of so many; 1 from cage_survey_run then means that all its slices are built and
+ * glued with each other. There is no atlas; facts are what it is for: a survey that learns those of all parts, made anywhere, has
+ * left to do what is between them. */
+int32_t cage_survey_part(cage_survey *survey, int32_t part, int32_t parts);
 
 /* ---- atlas: asking ------------------------------------------------------------------------------- */
 

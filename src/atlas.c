@@ -1,46 +1,18 @@
 /* atlas: writes a finished survey as bytes. */
 #include "atlas.h"
 #include "survey.h"
+#include "words.h"
 
-/* Bytes one by one, the same on every machine; counted even where there is no room. */
-struct pen {
-    unsigned char *byte; /* null: only count */
-    uint32_t words;
-};
-
-static void put_at(struct pen *pen, uint32_t word, uint32_t value)
+static void put_balls(struct cage_pen *pen, int32_t head, int32_t dim, const cage_ball *ball, int32_t count)
 {
-    for (int32_t i = 0; pen->byte && i < 4; i++)
-        pen->byte[(size_t)word * 4 + (size_t)i] = (unsigned char)(value >> (8 * i));
-}
-
-static void put(struct pen *pen, uint32_t value) { put_at(pen, pen->words++, value); }
-
-uint64_t cage_atlas_sum(uint64_t sum, const unsigned char *byte, size_t count)
-{
-    static const uint64_t nibble[16] = {
-        0x0000000000000000, 0x7d9ba13851336649, 0xfb374270a266cc92, 0x86ace348f355aadb, 0x64b62bcaebc387a1, 0x192d8af2baf0e1e8,
-        0x9f8169ba49a54b33, 0xe21ac88218962d7a, 0xc96c5795d7870f42, 0xb4f7f6ad86b4690b, 0x325b15e575e1c3d0, 0x4fc0b4dd24d2a599,
-        0xadda7c5f3c4488e3, 0xd041dd676d77eeaa, 0x56ed3e2f9e224471, 0x2b769f17cf112238};
-    sum = ~sum;
-    for (size_t i = 0; i < count; i++) {
-        sum ^= byte[i];
-        sum = nibble[sum & 15] ^ sum >> 4;
-        sum = nibble[sum & 15] ^ sum >> 4;
-    }
-    return ~sum;
-}
-
-static void put_balls(struct pen *pen, int32_t head, int32_t dim, const cage_ball *ball, int32_t count)
-{
-    put_at(pen, (uint32_t)head, pen->words);
-    put_at(pen, (uint32_t)head + 1, (uint32_t)count);
+    cage_words_put_at(pen, (uint32_t)head, pen->words);
+    cage_words_put_at(pen, (uint32_t)head + 1, (uint32_t)count);
     for (int32_t i = 0; i < count; i++) {
-        put(pen, (uint32_t)ball[i].x);
-        put(pen, (uint32_t)ball[i].y);
+        cage_words_put(pen, (uint32_t)ball[i].x);
+        cage_words_put(pen, (uint32_t)ball[i].y);
         if (dim == 3)
-            put(pen, (uint32_t)ball[i].z);
-        put(pen, (uint32_t)ball[i].r);
+            cage_words_put(pen, (uint32_t)ball[i].z);
+        cage_words_put(pen, (uint32_t)ball[i].r);
     }
 }
 
@@ -79,91 +51,85 @@ void cage_atlas_sort(cage_ball *ball, int32_t count)
 }
 
 /* The graph's cells but for start and goal; leaves are numbered in the order of the tree. */
-static void put_cells(struct pen *pen, const struct cage_graph *graph)
+static void put_cells(struct cage_pen *pen, const struct cage_graph *graph)
 {
     uint32_t first = pen->words, leaves = 0;
-    put_at(pen, CAGE_ATLAS_CELL, first);
-    put_at(pen, CAGE_ATLAS_CELL + 1, (uint32_t)(graph->cells - CAGE_CELL_ROOT));
+    cage_words_put_at(pen, CAGE_ATLAS_CELL, first);
+    cage_words_put_at(pen, CAGE_ATLAS_CELL + 1, (uint32_t)(graph->cells - CAGE_CELL_ROOT));
     for (int32_t cell = CAGE_CELL_ROOT; cell < graph->cells; cell++)
-        put(pen, (uint32_t)(graph->cell[cell].child - CAGE_CELL_ROOT) << 1);
+        cage_words_put(pen, (uint32_t)(graph->cell[cell].child - CAGE_CELL_ROOT) << 1);
     for (int32_t cell = -1; (cell = cage_graph_leaf(graph, cell)) >= 0;)
-        put_at(pen, first + (uint32_t)(cell - CAGE_CELL_ROOT), leaves++ << 1 | 1);
-    put_at(pen, CAGE_ATLAS_LEAVES, leaves);
+        cage_words_put_at(pen, first + (uint32_t)(cell - CAGE_CELL_ROOT), leaves++ << 1 | 1);
+    cage_words_put_at(pen, CAGE_ATLAS_LEAVES, leaves);
 }
 
 /* ---- a side --------------------------------------------------------------------------------------------- */
 
-static bool is_live(const struct cage_graph *graph, const struct cage_edge *edge)
-{
-    return graph->cell[edge->to->cell].child == 0;
-}
-
-static void put_leaves(struct pen *pen, const struct cage_survey *survey, int32_t side, uint32_t head)
+static void put_leaves(struct cage_pen *pen, const struct cage_survey *survey, int32_t side, uint32_t head)
 {
     const struct cage_graph *graph = &survey->proof->graph;
     uint32_t table = pen->words, leaf = 0;
-    put_at(pen, head + CAGE_SIDE_LEAF, table);
+    cage_words_put_at(pen, head + CAGE_SIDE_LEAF, table);
     for (int32_t cell = -1; (cell = cage_graph_leaf(graph, cell)) >= 0;) {
-        put(pen, 0);
-        put(pen, (uint32_t)survey->classes[side].first[cell]);
+        cage_words_put(pen, 0);
+        cage_words_put(pen, (uint32_t)survey->classes[side].first[cell]);
     }
     for (int32_t cell = -1; (cell = cage_graph_leaf(graph, cell)) >= 0;) {
         const struct cage_chart *chart = &survey->sheet[side][cell].chart;
-        put_at(pen, table + 2 * leaf++, pen->words);
+        cage_words_put_at(pen, table + 2 * leaf++, pen->words);
         for (int32_t i = 0; i < chart->words; i++)
-            put(pen, chart->word[i]);
+            cage_words_put(pen, chart->word[i]);
     }
 }
 
-static void put_graph(struct pen *pen, const struct cage_survey *survey, int32_t side, uint32_t head)
+static void put_graph(struct cage_pen *pen, const struct cage_survey *survey, int32_t side, uint32_t head)
 {
     const struct cage_graph *graph = &survey->proof->graph;
     const struct cage_classes *classes = &survey->classes[side];
     uint32_t edges = 0;
-    put_at(pen, head + CAGE_SIDE_NODES, (uint32_t)classes->nodes);
-    put_at(pen, head + CAGE_SIDE_CLASS, pen->words);
+    cage_words_put_at(pen, head + CAGE_SIDE_NODES, (uint32_t)classes->nodes);
+    cage_words_put_at(pen, head + CAGE_SIDE_CLASS, pen->words);
     for (int32_t n = 0; n < classes->nodes; n++)
-        put(pen, (uint32_t)classes->of[n]);
-    put_at(pen, head + CAGE_SIDE_ROW, pen->words);
+        cage_words_put(pen, (uint32_t)classes->of[n]);
+    cage_words_put_at(pen, head + CAGE_SIDE_ROW, pen->words);
     for (int32_t cell = -1; (cell = cage_graph_leaf(graph, cell)) >= 0;)
         for (int32_t k = 0; k < graph->cell[cell].facts[side].nodes; k++) {
-            put(pen, edges);
+            cage_words_put(pen, edges);
             for (const struct cage_edge *edge = graph->cell[cell].facts[side].node[k].edges; edge; edge = edge->next)
-                edges += is_live(graph, edge);
+                edges++;
         }
-    put(pen, edges);
-    put_at(pen, head + CAGE_SIDE_TO, pen->words);
-    put_at(pen, head + CAGE_SIDE_EDGES, edges);
+    cage_words_put(pen, edges);
+    cage_words_put_at(pen, head + CAGE_SIDE_TO, pen->words);
+    cage_words_put_at(pen, head + CAGE_SIDE_EDGES, edges);
     for (int32_t cell = -1; (cell = cage_graph_leaf(graph, cell)) >= 0;)
         for (int32_t k = 0; k < graph->cell[cell].facts[side].nodes; k++)
             for (const struct cage_edge *edge = graph->cell[cell].facts[side].node[k].edges; edge; edge = edge->next)
-                if (is_live(graph, edge))
-                    put(pen, (uint32_t)cage_classes_node(survey, side, edge->to));
+                cage_words_put(pen, (uint32_t)cage_classes_node(survey, side, edge->to));
 }
 
-static void put_classes(struct pen *pen, const struct cage_classes *classes, uint32_t head)
+static void put_classes(struct cage_pen *pen, const struct cage_classes *classes, uint32_t head)
 {
-    put_at(pen, head + CAGE_SIDE_TABLE, pen->words);
-    put_at(pen, head + CAGE_SIDE_CLASSES, (uint32_t)classes->count);
+    cage_words_put_at(pen, head + CAGE_SIDE_TABLE, pen->words);
+    cage_words_put_at(pen, head + CAGE_SIDE_CLASSES, (uint32_t)classes->count);
     for (int32_t i = 0; i < classes->count; i++) {
         const struct cage_sum *sum = &classes->sum[i];
-        put(pen, (uint32_t)sum->nodes);
-        put(pen, (uint32_t)sum->cells);
+        cage_words_put(pen, (uint32_t)sum->nodes);
+        cage_words_put(pen, (uint32_t)sum->cells);
         for (int32_t k = 0; k < 3; k++)
-            put(pen, (uint32_t)sum->extent.low[k]);
+            cage_words_put(pen, (uint32_t)sum->extent.low[k]);
         for (int32_t k = 0; k < 3; k++)
-            put(pen, (uint32_t)sum->extent.high[k]);
-        put(pen, (uint32_t)sum->leaf);
+            cage_words_put(pen, (uint32_t)sum->extent.high[k]);
+        cage_words_put(pen, (uint32_t)sum->leaf);
         for (int32_t k = 0; k < 3; k++)
-            put(pen, (uint32_t)sum->extent.at[k]);
+            cage_words_put(pen, (uint32_t)sum->extent.at[k]);
     }
 }
 
-static void put_side(struct pen *pen, const struct cage_survey *survey, int32_t side)
+static void put_side(struct cage_pen *pen, const struct cage_survey *survey, int32_t side)
 {
     uint32_t head = CAGE_ATLAS_SIDE + (uint32_t)side * CAGE_SIDE_WORDS;
     for (uint32_t i = 0; i < CAGE_SIDE_WORDS; i++)
-        put_at(pen, head + i, 0);
+        cage_words_put_at(pen, head + i, 0);
     if (!(survey->plan.side >> side & 1))
         return;
     put_leaves(pen, survey, side, head);
@@ -171,35 +137,34 @@ static void put_side(struct pen *pen, const struct cage_survey *survey, int32_t 
     put_classes(pen, &survey->classes[side], head);
 }
 
-static void put_all(struct pen *pen, const struct cage_survey *survey)
+static void put_all(struct cage_pen *pen, const struct cage_survey *survey)
 {
     const struct cage_proof *proof = survey->proof;
     const cage_scene *scene = &proof->scene;
     pen->words = CAGE_ATLAS_HEAD;
-    put_at(pen, CAGE_ATLAS_MAGIC, CAGE_ATLAS_MAGIC_WORD);
-    put_at(pen, CAGE_ATLAS_FORMAT, CAGE_ATLAS_FORMAT_WORD);
-    put_at(pen, CAGE_ATLAS_DIM, (uint32_t)scene->dim);
-    put_at(pen, CAGE_ATLAS_SIDES, (uint32_t)survey->plan.side);
+    cage_words_put_at(pen, CAGE_WORDS_MAGIC, CAGE_ATLAS_MAGIC_WORD);
+    cage_words_put_at(pen, CAGE_WORDS_FORMAT, CAGE_ATLAS_FORMAT_WORD);
+    cage_words_put_at(pen, CAGE_ATLAS_DIM, (uint32_t)scene->dim);
+    cage_words_put_at(pen, CAGE_ATLAS_SIDES, (uint32_t)survey->plan.side);
     for (uint32_t i = 0; i < 3; i++)
-        put_at(pen, CAGE_ATLAS_PIVOT + i, (uint32_t)proof->result.pivot[i]);
+        cage_words_put_at(pen, CAGE_ATLAS_PIVOT + i, (uint32_t)proof->result.pivot[i]);
     for (uint32_t i = 0; i < 2; i++)
-        put_at(pen, CAGE_ATLAS_NOTE + i, (uint32_t)survey->plan.note[i]);
+        cage_words_put_at(pen, CAGE_ATLAS_NOTE + i, (uint32_t)survey->plan.note[i]);
     put_balls(pen, CAGE_ATLAS_OBJECT, scene->dim, scene->object.inner, scene->object.inner_count);
     put_balls(pen, CAGE_ATLAS_OBSTACLE, scene->dim, survey->obstacle, scene->obstacles.inner_count);
     int32_t largest = 0;
     for (int32_t i = 0; i < scene->obstacles.inner_count; i++)
         largest = survey->obstacle[i].r > largest ? survey->obstacle[i].r : largest;
-    put_at(pen, CAGE_ATLAS_LARGEST, (uint32_t)largest);
+    cage_words_put_at(pen, CAGE_ATLAS_LARGEST, (uint32_t)largest);
     put_cells(pen, &proof->graph);
     for (int32_t side = 0; side < CAGE_SIDES; side++)
         put_side(pen, survey, side);
-    put_at(pen, CAGE_ATLAS_WORDS, pen->words);
+    cage_words_seal(pen);
 }
 
 size_t cage_survey_atlas(const cage_survey *survey, void *out, size_t bytes)
 {
-    const size_t from = 4 * (CAGE_ATLAS_SUM + 2);
-    struct pen pen = {NULL, 0};
+    struct cage_pen pen = {NULL, 0};
     if (!survey || !survey->done)
         return 0;
     put_all(&pen, survey);
@@ -208,9 +173,5 @@ size_t cage_survey_atlas(const cage_survey *survey, void *out, size_t bytes)
         return size;
     pen.byte = out;
     put_all(&pen, survey);
-    uint64_t sum = cage_atlas_sum(0, pen.byte, 4 * CAGE_ATLAS_SUM);
-    sum = cage_atlas_sum(sum, pen.byte + from, size - from);
-    put_at(&pen, CAGE_ATLAS_SUM, (uint32_t)sum);
-    put_at(&pen, CAGE_ATLAS_SUM + 1, (uint32_t)(sum >> 32));
     return size;
 }

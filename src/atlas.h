@@ -4,12 +4,8 @@
 
 #include "cage.h"
 
-/* Words of 32 bits, least significant byte first; places are counted in words from the beginning. The head: */
+/* Words of 32 bits, least significant byte first; places are counted in words from the beginning. The head, after the five words of words.h: */
 enum {
-    CAGE_ATLAS_MAGIC = 0,    /* "cage" */
-    CAGE_ATLAS_FORMAT = 1,   /* 1 */
-    CAGE_ATLAS_WORDS = 2,    /* of all */
-    CAGE_ATLAS_SUM = 3,      /* two words: cage_atlas_sum of all bytes after them */
     CAGE_ATLAS_DIM = 5,      /* 2 or 3 */
     CAGE_ATLAS_SIDES = 6,    /* CAGE_SIDE_... */
     CAGE_ATLAS_PIVOT = 7,    /* 3 words */
@@ -48,11 +44,7 @@ enum {
     CAGE_CLASS_WORDS = 12
 };
 
-enum { CAGE_ATLAS_MAGIC_WORD = 0x65676163, CAGE_ATLAS_FORMAT_WORD = 1 };
-
-/* The cyclic redundancy check CRC-64/XZ, of all bytes given so far; first of none: 0. It notices every error within 64 bits, and
- * any other but for one in 2^64. */
-uint64_t cage_atlas_sum(uint64_t sum, const unsigned char *byte, size_t count);
+enum { CAGE_ATLAS_MAGIC_WORD = 0x65676163 /* "cage" */, CAGE_ATLAS_FORMAT_WORD = 1 };
 
 /* Sort balls by x. */
 void cage_atlas_sort(cage_ball *ball, int32_t count);

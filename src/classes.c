@@ -57,6 +57,24 @@ int32_t cage_classes_make(struct cage_survey *survey, int32_t side)
     return CAGE_OK;
 }
 
+/* Only edges between leaves, in the order of the nodes they lead to, however they were found. */
+static struct cage_edge *in_order(const struct cage_survey *survey, int32_t side, struct cage_edge *edges)
+{
+    struct cage_edge *list = NULL;
+    while (edges) {
+        struct cage_edge *edge = edges, **at = &list;
+        edges = edge->next;
+        if (survey->proof->graph.cell[edge->to->cell].child)
+            continue;
+        int32_t node = cage_classes_node(survey, side, edge->to);
+        while (*at && cage_classes_node(survey, side, (*at)->to) < node)
+            at = &(*at)->next;
+        edge->next = *at;
+        *at = edge;
+    }
+    return list;
+}
+
 static void add(struct cage_sum *sum, const struct cage_extent *by, int32_t leaf, bool outside)
 {
     bool first = sum->nodes++ == 0;
@@ -86,7 +104,9 @@ int32_t cage_classes_sum(struct cage_survey *survey, int32_t side)
     int32_t leaf = 0;
     for (int32_t cell = -1; (cell = cage_graph_leaf(graph, cell)) >= 0; leaf++)
         for (int32_t k = 0; k < graph->cell[cell].facts[side].nodes; k++) {
+            struct cage_node *node = &graph->cell[cell].facts[side].node[k];
             int32_t class = classes->of[classes->first[cell] + k];
+            node->edges = in_order(survey, side, node->edges);
             add(&sum[class], &survey->sheet[side][cell].extent[k], leaf, class == CAGE_OUTSIDE);
         }
     classes->sum = sum;

@@ -4,6 +4,7 @@
 #include "chart.h"
 #include "fibre.h"
 #include "grid.h"
+#include "words.h"
 
 enum { DEEPEST = CAGE_LEVEL_MAX_2D + 1 };
 
@@ -12,16 +13,12 @@ enum { DEEPEST = CAGE_LEVEL_MAX_2D + 1 };
 /* Any place may be asked for: beyond the end all words are 0. */
 static uint32_t word(const cage_atlas *atlas, uint32_t at)
 {
-    if (at >= (uint32_t)atlas->words)
-        return 0;
-    const unsigned char *b = atlas->byte + 4 * (size_t)at;
-    return b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
+    return at < (uint32_t)atlas->words ? cage_words_get(atlas->byte, at) : 0;
 }
 
 static int32_t number(const cage_atlas *atlas, uint32_t at)
 {
-    uint32_t w = word(atlas, at);
-    return w < (uint32_t)1 << 31 ? (int32_t)w : -1 - (int32_t)~w;
+    return cage_words_number(word(atlas, at));
 }
 
 static uint32_t side_word(const cage_atlas *atlas, int32_t side, uint32_t at)
@@ -92,16 +89,9 @@ int32_t cage_atlas_open(cage_atlas *atlas, const void *bytes, size_t size)
     if (!atlas || !bytes)
         return CAGE_ERROR_ARGUMENT;
     cage_atlas made = {bytes, CAGE_ATLAS_HEAD, 0, 0, {0, 0}, {0, 0}, 0, {0, 0, 0}, {0, 0}};
-    if (size < 4 * CAGE_ATLAS_HEAD || word(&made, CAGE_ATLAS_MAGIC) != CAGE_ATLAS_MAGIC_WORD ||
-        word(&made, CAGE_ATLAS_FORMAT) != CAGE_ATLAS_FORMAT_WORD || word(&made, CAGE_ATLAS_WORDS) > INT32_MAX ||
-        word(&made, CAGE_ATLAS_WORDS) < CAGE_ATLAS_HEAD || size != 4 * (size_t)word(&made, CAGE_ATLAS_WORDS))
+    if (!cage_words_are_sealed(bytes, size, CAGE_ATLAS_MAGIC_WORD, CAGE_ATLAS_FORMAT_WORD, CAGE_ATLAS_HEAD))
         return CAGE_ERROR_ATLAS;
-    const size_t from = 4 * (CAGE_ATLAS_SUM + 2);
-    uint64_t sum = cage_atlas_sum(0, made.byte, 4 * CAGE_ATLAS_SUM);
-    sum = cage_atlas_sum(sum, made.byte + from, size - from);
-    if (word(&made, CAGE_ATLAS_SUM) != (uint32_t)sum || word(&made, CAGE_ATLAS_SUM + 1) != (uint32_t)(sum >> 32))
-        return CAGE_ERROR_ATLAS;
-    made.words = (int32_t)word(&made, CAGE_ATLAS_WORDS);
+    made.words = (int32_t)(size / 4);
     made.dim = number(&made, CAGE_ATLAS_DIM);
     made.side = number(&made, CAGE_ATLAS_SIDES);
     if ((made.dim != 2 && made.dim != 3) || made.side < CAGE_SIDE_INNER || made.side > CAGE_SIDE_BOTH || !cells_are_sound(&made))

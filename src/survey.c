@@ -93,8 +93,34 @@ int32_t cage_survey_begin(cage_survey **survey, const cage_scene *scene, const c
         made->obstacle[i] = obstacles->inner[i];
     cage_atlas_sort(made->obstacle, obstacles->inner_count);
     made->cell = cage_graph_leaf(&made->proof->graph, -1);
+    made->beyond = -1;
     made->after = CAGE_CELL_GOAL;
     *survey = made;
+    return CAGE_OK;
+}
+
+/* The leaf with that number. */
+static int32_t nth_leaf(const struct cage_graph *graph, int64_t number)
+{
+    int32_t cell = cage_graph_leaf(graph, -1);
+    for (; number > 0 && cell >= 0; number--)
+        cell = cage_graph_leaf(graph, cell);
+    return cell;
+}
+
+int32_t cage_survey_part(cage_survey *survey, int32_t part, int32_t parts)
+{
+    if (!survey || survey->result.steps > 0 || parts < 1 || part < 0 || part >= parts)
+        return CAGE_ERROR_ARGUMENT;
+    const struct cage_graph *graph = &survey->proof->graph;
+    int64_t leaves = 0;
+    for (int32_t cell = -1; (cell = cage_graph_leaf(graph, cell)) >= 0;)
+        leaves++;
+    survey->part = true;
+    survey->cell = nth_leaf(graph, part * leaves / parts); /* < 2^31 2^24 */
+    survey->beyond = nth_leaf(graph, (part + 1) * leaves / parts);
+    if (survey->cell == survey->beyond)
+        survey->cell = -1; /* more parts than leaves */
     return CAGE_OK;
 }
 
@@ -206,6 +232,8 @@ static void go_on(struct cage_survey *survey)
     if (++survey->side == CAGE_SIDES) {
         survey->side = 0;
         survey->cell = cage_graph_leaf(&survey->proof->graph, survey->cell);
+        if (survey->cell == survey->beyond)
+            survey->cell = -1;
     }
 }
 
@@ -309,6 +337,8 @@ static int32_t finish_round(struct cage_survey *survey)
     return CAGE_OK;
 }
 
+static bool is_finished(const struct cage_survey *survey) { return survey->done || (survey->part && survey->cell < 0); }
+
 static int32_t step(struct cage_survey *survey)
 {
     for (; survey->cell >= 0; go_on(survey)) {
@@ -323,7 +353,7 @@ static int32_t step(struct cage_survey *survey)
             return error;
         }
     }
-    return finish_round(survey);
+    return survey->part ? CAGE_OK : finish_round(survey);
 }
 
 /* What comes next on one side of a leaf; false: enough of it. */
@@ -347,13 +377,13 @@ static void look_ahead(struct cage_survey *survey, const cage_workers *workers)
 {
     cage_ahead_tidy(survey->proof->ahead, workers);
     bool more = true;
-    for (int32_t cell = survey->cell; more && cell >= 0; cell = cage_graph_leaf(&survey->proof->graph, cell))
+    for (int32_t cell = survey->cell; more && cell >= 0 && cell != survey->beyond; cell = cage_graph_leaf(&survey->proof->graph, cell))
         for (int32_t side = 0; more && side < CAGE_SIDES; side++)
             more = !is_wanted(survey, side) || look_at(survey, cell, side);
     cage_ahead_do(survey->proof->ahead, workers);
 }
 
-static void sum_up(struct cage_survey *survey)
+void cage_survey_sum_up(struct cage_survey *survey)
 {
     struct cage_survey_result *result = &survey->result;
     const struct cage_proof *proof = survey->proof;
@@ -383,15 +413,15 @@ int32_t cage_survey_run_with(cage_survey *survey, int64_t steps, const cage_work
         return CAGE_ERROR_ARGUMENT;
     struct cage_proof *proof = survey->proof;
     proof->ahead = workers ? cage_ahead_make(workers) : NULL;
-    for (; steps > 0 && !survey->done && proof->error == CAGE_OK; steps--) {
+    for (; steps > 0 && !is_finished(survey) && proof->error == CAGE_OK; steps--) {
         if (proof->ahead && survey->cell >= 0 && cage_ahead_is_due(proof->ahead))
             look_ahead(survey, workers);
         proof->error = step(survey);
         survey->result.steps++;
     }
     proof->ahead = NULL;
-    sum_up(survey);
-    return survey->proof->error != CAGE_OK ? survey->proof->error : survey->done;
+    cage_survey_sum_up(survey);
+    return survey->proof->error != CAGE_OK ? survey->proof->error : is_finished(survey);
 }
 
 const cage_survey_result *cage_survey_result_of(const cage_survey *survey)

@@ -44,15 +44,20 @@ struct cage_survey {
     struct cage_classes classes[CAGE_SIDES];
     int32_t cell;  /* the leaf in work, or -1: all are done */
     int32_t side;
+    int32_t beyond; /* the first leaf of the next part, or -1 */
+    bool part;      /* only a part is wanted */
     int32_t after; /* the last of its neighbours that is done */
     cage_ball *obstacle; /* the inner obstacles by x */
     bool done;
 };
 
+/* Bring the result up to date. */
+void cage_survey_sum_up(struct cage_survey *survey);
+
 /* Join nodes into classes, numbered in the order of their first nodes; class 0 is the outside. */
 int32_t cage_classes_make(struct cage_survey *survey, int32_t side);
 
-/* Add up what is known of each class. */
+/* Add up what is known of each class, and put the edges of all leaves in order. */
 int32_t cage_classes_sum(struct cage_survey *survey, int32_t side);
 
 /* The number of the node of an edge's end. */

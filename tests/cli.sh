@@ -781,6 +781,36 @@ holds cmp -s "$folder/atlas" "$folder/first"
 atlas "too little memory" bar fence --level 4 --memory 100K
 holds [ "$code" -eq 3 ]
 holds grep -q 'at least [0-9]* are needed' "$folder/err"
+walls=$(dirname "$0")/../examples/walls
+cp "$walls/plus.xyzr" "$walls/walls_R4.xyzr" "$folder/" || exit 1
+atlas "an atlas that takes a while" plus.xyzr walls_R4.xyzr --level 9 --threads 1 --quiet
+holds [ "$code" -eq 0 ]
+cp "$folder/atlas" "$folder/first"
+rm "$folder/atlas"
+case="interrupted"
+(
+    "$command" atlas --object "$folder/plus.xyzr" --obstacles "$folder/walls_R4.xyzr" --level 9 --threads 1 -o "$folder/atlas" \
+        >"$folder/out" 2>"$folder/err" </dev/null &
+    child=$!
+    sleep 0.3
+    kill -TERM $child
+    wait $child
+)
+code=$?
+holds [ "$code" -eq 130 ]
+holds grep -q '^cage: interrupted: the same command goes on from .*/atlas.facts$' "$folder/err"
+holds [ ! -e "$folder/atlas" ]
+cp "$folder/atlas.facts" "$folder/facts" || fail "no facts"
+atlas "it goes on" plus.xyzr walls_R4.xyzr --level 9 --threads 2
+holds [ "$code" -eq 0 ]
+holds grep -q '^cage: going on from .*/atlas.facts$' "$folder/err"
+holds cmp -s "$folder/atlas" "$folder/first"
+holds [ ! -e "$folder/atlas.facts" ]
+cp "$folder/facts" "$folder/atlas.facts"
+atlas "not from facts of something else" plus.xyzr walls_R4.xyzr --level 3
+holds [ "$code" -eq 0 ]
+holds grep -q '^cage: warning: .*/atlas.facts is of another scene' "$folder/err"
+rm -f "$folder/atlas.facts"
 atlas "no budget without both sides" bar fence --side inner --budget 100
 refused '--budget: .*--side must be both'
 atlas "no such level" bar fence --level 15

@@ -1,7 +1,7 @@
 /* sealed.c: writing into the bytes of an atlas, and giving them the right check sum again. */
 #include "sealed.h"
 
-#include "atlas.h"
+#include "words.h"
 
 void sealed_put(unsigned char *byte, size_t word, uint32_t value)
 {
@@ -11,8 +11,8 @@ void sealed_put(unsigned char *byte, size_t word, uint32_t value)
 
 void sealed_sum(unsigned char *byte, size_t size)
 {
-    const size_t from = 4 * (CAGE_ATLAS_SUM + 2);
-    uint64_t sum = cage_atlas_sum(cage_atlas_sum(0, byte, 4 * CAGE_ATLAS_SUM), byte + from, size - from);
-    sealed_put(byte, CAGE_ATLAS_SUM, (uint32_t)sum);
-    sealed_put(byte, CAGE_ATLAS_SUM + 1, (uint32_t)(sum >> 32));
+    const size_t from = 4 * (CAGE_WORDS_SUM + 2);
+    uint64_t sum = cage_words_sum(cage_words_sum(0, byte, 4 * CAGE_WORDS_SUM), byte + from, size - from);
+    sealed_put(byte, CAGE_WORDS_SUM, (uint32_t)sum);
+    sealed_put(byte, CAGE_WORDS_SUM + 1, (uint32_t)(sum >> 32));
 }

@@ -1,14 +1,11 @@
-/* atlas_command.c: "cage atlas": options in, one survey, the atlas out as a file, its classes as a table or as JSON. */
+/* atlas_command.c: "cage atlas": options in, the atlas out as a file, its classes as a table or as JSON. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "atlas_host.h"
 #include "threads.h"
 
-#define STEPS_A_TURN 64 /* between two looks at the clock */
-#define STEPS_TOGETHER 1024 /* the same when threads work together */
 #define MOST_CELLS (1 << 24)
 
 typedef struct options {
@@ -46,7 +43,10 @@ void host_atlas_help(FILE *out)
         "  --quiet           print nothing; no progress, no warnings\n"
         "  --help            this text\n"
         "\n"
-        "exit status: 0, 2 for bad input, 3 when memory was too small (says how much was needed).\n"
+        "A build that takes longer keeps what it has found out in FILE.facts, and does so when it is interrupted: the same\n"
+        "command then goes on from there, to the same atlas, and removes it.\n"
+        "\n"
+        "exit status: 0, 2 for bad input, 3 when memory was too small (says how much was needed), 130 when interrupted.\n"
         "\n"
         "example:\n"
         "  cage atlas --object examples/walls/plus.xyzr --obstacles examples/walls/walls_R4.xyzr -o walls.atlas\n"
@@ -94,88 +94,7 @@ static int read_plan(const options *given, int32_t dim, double unit, cage_plan *
     return code;
 }
 
-/* ---- the survey ---------------------------------------------------------------------------------------- */
-
-static void show_progress(const cage_survey_result *work, double seconds)
-{
-    const int32_t sides = (work->slices[0] > 0) + (work->slices[1] > 0);
-    const double share = (double)(work->slices[0] + work->slices[1]) / (double)(work->leaves * (sides > 0 ? sides : 1));
-    char bar[33];
-    int i;
-
-    for (i = 0; i < 32; i++)
-        bar[i] = i < (int)(32 * share) ? '#' : '.';
-    bar[32] = '\0';
-    (void)fprintf(stderr, "\r%6.1f s  [%s] %ld cells, %ld + %ld slices, %.0f MiB ", seconds, bar, (long)work->leaves,
-                  (long)work->slices[0], (long)work->slices[1], (double)work->peak_bytes / (double)HOST_MIB);
-    (void)fflush(stderr);
-}
-
-typedef struct job {
-    const cage_scene *scene;
-    const cage_plan *plan;
-    host_built *made;
-    int progress;
-} job;
-
-static int32_t attempt(void *data, void *block, size_t bytes, uint64_t *needed)
-{
-    const job *todo = data;
-    const cage_scene *scene = todo->scene;
-    host_built *made = todo->made;
-    const uint64_t pairs = (uint64_t)scene->object.outer_count * (uint64_t)scene->obstacles.outer_count;
-    cage_workers workers;
-    host_threads *crew = NULL;
-    cage_survey *survey;
-    double begun = host_now(), shown = begun;
-    int32_t state = cage_survey_begin(&survey, scene, todo->plan, block, bytes);
-    size_t size;
-
-    if (state != CAGE_OK)
-        return state;
-    crew = made->threads > 1 ? host_threads_start(made->threads, pairs, &workers) : NULL;
-    while ((state = cage_survey_run_with(survey, crew ? STEPS_TOGETHER : STEPS_A_TURN, crew ? &workers : NULL)) == 0)
-        if (todo->progress && host_now() - shown > 0.1) {
-            shown = host_now();
-            show_progress(cage_survey_result_of(survey), shown - begun);
-        }
-    host_threads_stop(crew);
-    if (todo->progress && shown > begun)
-        (void)fprintf(stderr, "\r%90s\r", "");
-    made->work = *cage_survey_result_of(survey);
-    *needed = made->work.needed_bytes;
-    if (state < 0)
-        return state;
-    size = (size_t)made->work.atlas_bytes;
-    made->bytes = malloc(size);
-    if (made->bytes == NULL || cage_survey_atlas(survey, made->bytes, size) != size)
-        return CAGE_ERROR_MEMORY;
-    made->seconds = host_now() - begun;
-    return cage_atlas_open(&made->atlas, made->bytes, size);
-}
-
 /* ---- files ---------------------------------------------------------------------------------------------- */
-
-/* Written beside, then moved into place: there is never half an atlas. */
-static int write_atlas(const char *path, const host_built *made, host_error *error)
-{
-    const size_t length = strlen(path), size = (size_t)made->work.atlas_bytes;
-    char *beside = malloc(length + 6);
-    FILE *file = NULL;
-    int fine;
-
-    if (beside == NULL)
-        return host_fail(error, HOST_MEMORY, "no memory for a file name");
-    memcpy(beside, path, length);
-    memcpy(beside + length, ".part", 6);
-    file = fopen(beside, "wb");
-    fine = file != NULL && fwrite(made->bytes, 1, size, file) == size;
-    fine = file != NULL && fclose(file) == 0 && fine && rename(beside, path) == 0;
-    if (!fine && file != NULL)
-        (void)remove(beside);
-    free(beside);
-    return fine ? HOST_OK : host_fail(error, HOST_BAD_INPUT, "%.600s cannot be written: %.200s", path, strerror(errno));
-}
 
 static int write_header(const char *path, const host_built *made, host_error *error)
 {
@@ -222,7 +141,6 @@ static int read_scene(const options *given, host_query *query, host_grid *grid, 
 static int run(const options *given, host_query *query, host_grid *grid, host_built *made, host_error *error)
 {
     cage_plan plan;
-    job todo = { &grid->scene, &plan, made, !given->quiet && isatty(STDERR_FILENO) };
     size_t bytes = 0;
     int32_t rounds = 0;
     int code = HOST_OK;
@@ -246,10 +164,11 @@ static int run(const options *given, host_query *query, host_grid *grid, host_bu
     if (code == HOST_OK)
         code = host_check_writable("--c-header", given->header, error);
     if (code == HOST_OK)
-        code = host_in_block(cage_survey_size(&grid->scene, &plan), given->memory != NULL ? &bytes : NULL, attempt, &todo,
-                             &made->block, "scene", error);
+        code = host_build_atlas(&grid->scene, &plan, given->memory != NULL ? &bytes : NULL, given->output, given->quiet, made, error);
     if (code == HOST_OK)
-        code = write_atlas(given->output, made, error);
+        code = host_write_whole(given->output, made->bytes, (size_t)made->work.atlas_bytes, error);
+    if (code == HOST_OK)
+        host_forget_facts(given->output, made);
     if (code == HOST_OK && given->header != NULL)
         code = write_header(given->header, made, error);
     if (code == HOST_OK && given->json)
@@ -280,6 +199,7 @@ int host_atlas(int argc, char **argv)
         (void)fprintf(stderr, "%s%s\n", error.located ? "" : "cage: ", error.text);
     free(made.block);
     free(made.bytes);
+    free(made.facts);
     host_free_grid(&grid);
     host_free_balls(&query.object);
     host_free_balls(&query.obstacles);

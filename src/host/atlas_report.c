@@ -61,12 +61,16 @@ void host_report_atlas(FILE *out, const char *path, const host_built *made, doub
     const cage_survey_result *work = &made->work;
     const double balls = (double)(work->balls[0] + work->balls[1]);
 
-    (void)fprintf(out, "Atlas   %s: %.1f KiB, %.2f bytes for each ball and slice\n", path,
-                  (double)work->atlas_bytes / 1024, balls > 0 ? (double)work->atlas_bytes / balls : 0);
+    (void)fprintf(out, "Atlas   %s: %.1f KiB", path, (double)work->atlas_bytes / 1024);
+    if (balls > 0 && !made->resumed)
+        (void)fprintf(out, ", %.2f bytes for each ball and slice", (double)work->atlas_bytes / balls);
+    (void)fprintf(out, "\n");
     (void)fprintf(out, "Cells   %ld, the finest of level %ld\n", (long)work->leaves, (long)work->level);
     (void)fprintf(out, "Work    %ld + %ld slices, %ld + %ld gluings (%ld + %ld by a triangulation of their own), %.1f MiB, %.3f s\n",
                   (long)work->slices[0], (long)work->slices[1], (long)work->gluings[0], (long)work->gluings[1],
                   (long)work->mixtures[0], (long)work->mixtures[1], (double)work->peak_bytes / (double)HOST_MIB, made->seconds);
+    if (made->resumed)
+        (void)fprintf(out, "        since it was interrupted, or its memory grew\n");
     (void)fprintf(out, "Unit    %.6g\n", unit);
     if (made->atlas.side & CAGE_SIDE_INNER)
         print_side(out, &made->atlas, CAGE_SIDE_INNER, unit);

@@ -12,6 +12,7 @@
 #define HOST_BROKEN 1    /* a path found by the search failed the independent check: a bug */
 #define HOST_BAD_INPUT 2 /* the message says where */
 #define HOST_MEMORY 3    /* the message says how much was needed */
+#define HOST_INTERRUPTED 130 /* by SIGINT or SIGTERM */
 
 /* Larger numbers are refused, so that sums and squares of what was read are finite. */
 #define HOST_LARGEST 1e150
@@ -106,6 +107,12 @@ void host_warn_empty(const char *object, const char *obstacles, const host_query
 
 /* Better before long work than after it. Leaves no file where none was. */
 int host_check_writable(const char *option, const char *path, host_error *error);
+
+/* Reads all of a file; the caller frees *bytes, whatever the outcome. */
+int host_read_whole(const char *path, unsigned char **bytes, size_t *size, host_error *error);
+
+/* Writes all of a file beside its place, and then moves it there: there is never half of it. */
+int host_write_whole(const char *path, const unsigned char *bytes, size_t size, host_error *error);
 
 /* Seconds, from any beginning. */
 double host_now(void);

@@ -106,6 +106,40 @@ int host_check_writable(const char *option, const char *path, host_error *error)
     return HOST_OK;
 }
 
+int host_read_whole(const char *path, unsigned char **bytes, size_t *size, host_error *error)
+{
+    FILE *file = fopen(path, "rb");
+    long end = 0;
+    int fine = file != NULL && fseek(file, 0, SEEK_END) == 0 && (end = ftell(file)) >= 0 && fseek(file, 0, SEEK_SET) == 0;
+
+    *bytes = fine ? malloc((size_t)end + 1) : NULL;
+    fine = *bytes != NULL && fread(*bytes, 1, (size_t)end, file) == (size_t)end;
+    *size = (size_t)end;
+    if (file != NULL)
+        (void)fclose(file);
+    return fine ? HOST_OK : host_fail(error, HOST_BAD_INPUT, "%.600s cannot be read: %.200s", path, strerror(errno));
+}
+
+int host_write_whole(const char *path, const unsigned char *bytes, size_t size, host_error *error)
+{
+    const size_t length = strlen(path);
+    char *beside = malloc(length + 6);
+    FILE *file = NULL;
+    int fine;
+
+    if (beside == NULL)
+        return host_fail(error, HOST_MEMORY, "no memory for a file name");
+    memcpy(beside, path, length);
+    memcpy(beside + length, ".part", 6);
+    file = fopen(beside, "wb");
+    fine = file != NULL && fwrite(bytes, 1, size, file) == size;
+    fine = file != NULL && fclose(file) == 0 && fine && rename(beside, path) == 0;
+    if (!fine && file != NULL)
+        (void)remove(beside);
+    free(beside);
+    return fine ? HOST_OK : host_fail(error, HOST_BAD_INPUT, "%.600s cannot be written: %.200s", path, strerror(errno));
+}
+
 double host_now(void)
 {
     struct timespec time;

@@ -1,5 +1,4 @@
 /* query_command.c: "cage query": an atlas and poses in, verdicts out. */
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,20 +46,6 @@ static int read_options(int argc, char **argv, options *given, host_error *error
     if (code == HOST_OK && (given->file == NULL || (given->to != NULL && given->at == NULL)))
         return host_fail(error, HOST_BAD_INPUT, "%s is missing (see cage query --help)", given->file == NULL ? "FILE" : "--at");
     return code;
-}
-
-static int read_file(const char *path, unsigned char **bytes, size_t *size, host_error *error)
-{
-    FILE *file = fopen(path, "rb");
-    long end = 0;
-    int fine = file != NULL && fseek(file, 0, SEEK_END) == 0 && (end = ftell(file)) >= 0 && fseek(file, 0, SEEK_SET) == 0;
-
-    *bytes = fine ? malloc((size_t)end + 1) : NULL;
-    fine = *bytes != NULL && fread(*bytes, 1, (size_t)end, file) == (size_t)end;
-    *size = (size_t)end;
-    if (file != NULL)
-        (void)fclose(file);
-    return fine ? HOST_OK : host_fail(error, HOST_BAD_INPUT, "%.600s cannot be read: %.200s", path, strerror(errno));
 }
 
 /* ---- one question --------------------------------------------------------------------------------------- */
@@ -163,7 +148,7 @@ static int run(const options *given, unsigned char **bytes, host_error *error)
     cage_atlas atlas;
     size_t size;
     double unit;
-    int code = read_file(given->file, bytes, &size, error);
+    int code = host_read_whole(given->file, bytes, &size, error);
 
     if (code != HOST_OK)
         return code;

@@ -1,0 +1,52 @@
+/* words: numbers of 32 bits as bytes, least significant first, the same on every machine; and a sum that notices changes. */
+#include "words.h"
+
+void cage_words_put_at(struct cage_pen *pen, uint32_t word, uint32_t value)
+{
+    for (int32_t i = 0; pen->byte && i < 4; i++)
+        pen->byte[(size_t)word * 4 + (size_t)i] = (unsigned char)(value >> (8 * i));
+}
+
+void cage_words_put(struct cage_pen *pen, uint32_t value) { cage_words_put_at(pen, pen->words++, value); }
+
+uint64_t cage_words_sum(uint64_t sum, const unsigned char *byte, size_t count)
+{
+    static const uint64_t nibble[16] = {
+        0x0000000000000000, 0x7d9ba13851336649, 0xfb374270a266cc92, 0x86ace348f355aadb, 0x64b62bcaebc387a1, 0x192d8af2baf0e1e8,
+        0x9f8169ba49a54b33, 0xe21ac88218962d7a, 0xc96c5795d7870f42, 0xb4f7f6ad86b4690b, 0x325b15e575e1c3d0, 0x4fc0b4dd24d2a599,
+        0xadda7c5f3c4488e3, 0xd041dd676d77eeaa, 0x56ed3e2f9e224471, 0x2b769f17cf112238};
+    sum = ~sum;
+    for (size_t i = 0; i < count; i++) {
+        sum ^= byte[i];
+        sum = nibble[sum & 15] ^ sum >> 4;
+        sum = nibble[sum & 15] ^ sum >> 4;
+    }
+    return ~sum;
+}
+
+/* The sum of all but its own two words. */
+static uint64_t sum_of(const unsigned char *byte, size_t size)
+{
+    const size_t from = 4 * (CAGE_WORDS_SUM + 2);
+    return cage_words_sum(cage_words_sum(0, byte, 4 * CAGE_WORDS_SUM), byte + from, size - from);
+}
+
+void cage_words_seal(struct cage_pen *pen)
+{
+    cage_words_put_at(pen, CAGE_WORDS_COUNT, pen->words);
+    if (!pen->byte)
+        return;
+    uint64_t sum = sum_of(pen->byte, 4 * (size_t)pen->words);
+    cage_words_put_at(pen, CAGE_WORDS_SUM, (uint32_t)sum);
+    cage_words_put_at(pen, CAGE_WORDS_SUM + 1, (uint32_t)(sum >> 32));
+}
+
+bool cage_words_are_sealed(const unsigned char *byte, size_t size, uint32_t magic, uint32_t format, uint32_t least)
+{
+    if (size < 4 * (size_t)least || size / 4 > INT32_MAX || cage_words_get(byte, CAGE_WORDS_MAGIC) != magic ||
+        cage_words_get(byte, CAGE_WORDS_FORMAT) != format || size != 4 * (size_t)cage_words_get(byte, CAGE_WORDS_COUNT))
+        return false;
+    uint64_t sum = sum_of(byte, size);
+    return cage_words_get(byte, CAGE_WORDS_SUM) == (uint32_t)sum &&
+           cage_words_get(byte, CAGE_WORDS_SUM + 1) == (uint32_t)(sum >> 32);
+}
