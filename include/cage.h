@@ -310,11 +310,14 @@ typedef struct cage_atlas {
 } cage_atlas;
 
 /* What a class is. All translations of the pivot that belong to it are within low..high (zeros for class 0, which goes on for
- * ever). pose: a pose of the pivot in it, if known is 1. */
+ * ever), all rotations within an angle of the rotation q: the sine of half of it is sine / 2^30, rounded up (2^30: they may be
+ * any). pose: a pose of the pivot in it, if known is 1. */
 typedef struct cage_class {
     int32_t cells;
     int32_t nodes;
     int32_t low[3], high[3];
+    int32_t q[4];
+    int32_t sine;
     int32_t known;
     cage_pose pose;
 } cage_class;
@@ -333,6 +336,23 @@ int32_t cage_atlas_ask(const cage_atlas *atlas, const cage_pose *start, const ca
 int32_t cage_atlas_locate(const cage_atlas *atlas, const cage_pose *pose, int32_t side);
 
 int32_t cage_atlas_class(const cage_atlas *atlas, int32_t side, int32_t class_number, cage_class *out);
+
+/* The corners of a cell, 0 <= cell < atlas->leaves: quaternions, 2 in the plane and 8 in space, corner k at the high end of axis i
+ * if bit i of k is set. The cell's rotations are those between them: their quaternions are sums of positive multiples of the corners.
+ * q: its representative rotation. Returns how many corners it has. */
+int32_t cage_atlas_cell(const cage_atlas *atlas, int32_t cell, int32_t q[4], int32_t corner[8][4]);
+
+/* A solid box of translations of the pivot. */
+typedef struct cage_atlas_box {
+    int32_t low[3], high[3];
+    int32_t whole; /* 1: all of it belongs to the class over all of the cell, 0: part of it may */
+} cage_atlas_box;
+
+/* Visit boxes that between them hold all translations that belong to the class over the cell (of class 0 those within the bounding
+ * box of the cell's balls), but for gaps of one unit between boxes. Boxes of which only part may belong to it are halved along each
+ * axis to find out, down to 1 / 2^halvings (0 to 20) of that box. For volumes and pictures. How many were visited, or an error. */
+int64_t cage_atlas_boxes(const cage_atlas *atlas, int32_t side, int32_t cell, int32_t class_number, int32_t halvings,
+                         void (*visit)(void *context, const cage_atlas_box *box), void *context);
 
 /* ---- words --------------------------------------------------------------------------------------- */
 const char *cage_verdict_text(int32_t verdict); /* "CAGED", ... */

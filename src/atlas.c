@@ -61,6 +61,13 @@ static void put_cells(struct cage_pen *pen, const struct cage_graph *graph)
     for (int32_t cell = -1; (cell = cage_graph_leaf(graph, cell)) >= 0;)
         cage_words_put_at(pen, first + (uint32_t)(cell - CAGE_CELL_ROOT), leaves++ << 1 | 1);
     cage_words_put_at(pen, CAGE_ATLAS_LEAVES, leaves);
+    cage_words_put_at(pen, CAGE_ATLAS_LEAF, pen->words);
+    for (int32_t cell = -1; (cell = cage_graph_leaf(graph, cell)) >= 0;) {
+        const struct cage_cell *leaf = &graph->cell[cell].cell;
+        cage_words_put(pen, (uint32_t)leaf->level | (uint32_t)leaf->face << 4);
+        for (int32_t k = 0; k < 3; k++)
+            cage_words_put(pen, (uint32_t)leaf->at[k]);
+    }
 }
 
 /* ---- a side --------------------------------------------------------------------------------------------- */
@@ -122,6 +129,9 @@ static void put_classes(struct cage_pen *pen, const struct cage_classes *classes
         cage_words_put(pen, (uint32_t)sum->leaf);
         for (int32_t k = 0; k < 3; k++)
             cage_words_put(pen, (uint32_t)sum->extent.at[k]);
+        for (int32_t k = 0; k < 4; k++)
+            cage_words_put(pen, (uint32_t)sum->middle[k]);
+        cage_words_put(pen, (uint32_t)sum->sine);
     }
 }
 

@@ -17,7 +17,9 @@ enum {
     CAGE_ATLAS_LEAVES = 18,
     CAGE_ATLAS_SIDE = 19,    /* two tables of CAGE_SIDE_WORDS words, inner and outer */
     CAGE_ATLAS_LARGEST = 37, /* the largest radius among them */
-    CAGE_ATLAS_HEAD = 38
+    CAGE_ATLAS_LEAF = 38,    /* where the leaves are told: its level and 16 times its face, then its
+                                place in the face, three words */
+    CAGE_ATLAS_HEAD = 39
 };
 
 /* A side: places, and how many. */
@@ -41,7 +43,9 @@ enum {
     CAGE_CLASS_HIGH = 5,
     CAGE_CLASS_LEAF = 8,  /* 1 + a leaf where a point of it is known, or 0 */
     CAGE_CLASS_AT = 9,    /* 3 words: that point */
-    CAGE_CLASS_WORDS = 12
+    CAGE_CLASS_Q = 12,    /* 4 words: its rotations are those that turn by no more from this one */
+    CAGE_CLASS_SINE = 16, /* than what this tells: see cage_class */
+    CAGE_CLASS_WORDS = 17
 };
 
 enum { CAGE_ATLAS_MAGIC_WORD = 0x65676163 /* "cage" */, CAGE_ATLAS_FORMAT_WORD = 1 };

@@ -46,3 +46,14 @@ bool cage_box_is_held(const struct cage_box *box, const struct cage_site *ball)
     }
     return square <= (int64_t)ball->r * ball->r;
 }
+
+bool cage_box_is_apart(const struct cage_box *box, const struct cage_site *ball)
+{
+    const int64_t at[3] = {ball->x, ball->y, ball->z};
+    int64_t square = 0; /* as above */
+    for (int32_t k = 0; k < 3; k++) {
+        int64_t below = box->low[k] - at[k], above = at[k] - box->high[k], near = below > above ? below : above;
+        square += near > 0 ? near * near : 0;
+    }
+    return square > (int64_t)ball->r * ball->r;
+}

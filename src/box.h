@@ -21,7 +21,8 @@ static CAGE_INLINE bool cage_box_meets(const struct cage_box *box, const struct 
            (z + r >= box->low[2]) & (z - r <= box->high[2]);
 }
 
-/* Does it hold all of it? */
+/* Does the closed ball hold all of the box? Is it apart from it? Both exact. */
 bool cage_box_is_held(const struct cage_box *box, const struct cage_site *ball);
+bool cage_box_is_apart(const struct cage_box *box, const struct cage_site *ball);
 
 #endif

@@ -25,8 +25,8 @@ struct cage_fibre {
     /* The representative rotation, and cage_turn from it to the farthest rotation of the cell. */
     void (*representative)(const struct cage_cell *cell, int32_t q[4]);
     int64_t (*turn)(const struct cage_cell *cell);
-    /* Its corners, or null: displacements then follow from the turn alone, as they do in the plane. */
-    void (*corners)(const struct cage_cell *cell, int32_t q[8][4]);
+    /* Its corners, and how many it has. Where there are two, displacements follow from the turn alone. */
+    int32_t (*corners)(const struct cage_cell *cell, int32_t q[8][4]);
     /* A rotation in both of two touching cells. */
     void (*common)(const struct cage_cell *a, const struct cage_cell *b, int32_t q[4]);
 };

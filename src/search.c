@@ -9,11 +9,9 @@ int32_t cage_search_make(const struct cage_proof *proof, struct cage_arena *aren
     const struct cage_leaf *leaf = &proof->graph.cell[cell];
     int32_t corner[8][4];
     struct cage_corners corners;
-    bool within = cell >= CAGE_CELL_ROOT && proof->graph.fibre->corners;
-    if (within) {
-        proof->graph.fibre->corners(&leaf->cell, corner);
+    bool within = cell >= CAGE_CELL_ROOT && proof->graph.fibre->corners(&leaf->cell, corner) == 8;
+    if (within)
         cage_corners_of(leaf->rotations.q, corner, &corners);
-    }
     return cage_slice_make_within(arena, &proof->side[side], &leaf->rotations, within ? &corners : NULL, slice);
 }
 

@@ -6,8 +6,6 @@
 #include "fibre.h"
 #include "grid.h"
 
-#include <stddef.h>
-
 enum { MAX_LEVEL = 14, CIRCLE = 2 << MAX_LEVEL };
 
 /* The rotation at t = m / 2^level on a face, |m| <= 2^level: entries <= 3 4^14 < 2^30. */
@@ -71,6 +69,13 @@ static void representative(const struct cage_cell *cell, int32_t q[4])
     cell_rotation(cell, 1, q);
 }
 
+static int32_t corners(const struct cage_cell *cell, int32_t q[8][4])
+{
+    cell_rotation(cell, 0, q[0]);
+    cell_rotation(cell, 2, q[1]);
+    return 2;
+}
+
 static int64_t turn(const struct cage_cell *cell)
 {
     int32_t first[4], middle[4], last[4];
@@ -87,4 +92,4 @@ static void common(const struct cage_cell *a, const struct cage_cell *b, int32_t
     cell_rotation(a, around(b_first - first) == length ? 2 : 0, q);
 }
 
-const struct cage_fibre cage_so2 = {2, 2, MAX_LEVEL, child, touch, contains, representative, turn, NULL, common};
+const struct cage_fibre cage_so2 = {2, 2, MAX_LEVEL, child, touch, contains, representative, turn, corners, common};

@@ -112,12 +112,13 @@ static void representative(const struct cage_cell *cell, int32_t q[4])
     cell_rotation(cell, middle, q);
 }
 
-static void corners(const struct cage_cell *cell, int32_t q[8][4])
+static int32_t corners(const struct cage_cell *cell, int32_t q[8][4])
 {
     for (int32_t i = 0; i < 8; i++) {
         const int32_t end[3] = {2 * (i & 1), i & 2, 2 * (i >> 2)};
         cell_rotation(cell, end, q[i]);
     }
+    return 8;
 }
 
 static int64_t turn(const struct cage_cell *cell)

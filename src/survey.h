@@ -23,6 +23,9 @@ struct cage_sum {
     int32_t nodes, cells;
     int32_t last; /* the last leaf that was counted */
     int32_t leaf; /* 1 + the leaf of the known point, or 0 */
+    int64_t mean[4];   /* its representatives, those of larger cells counting more */
+    int32_t middle[4]; /* all its rotations turn by no more from this one */
+    int32_t sine;      /* than by the angle of which half has this sine, in units of 2^-30; at most 2^30 */
     struct cage_extent extent; /* at: the point */
 };
 

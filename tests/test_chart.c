@@ -382,7 +382,7 @@ static void choose_cell(uint64_t *state, int32_t dim, int32_t level, struct cage
     }
     fibre->representative(&cell, out->q);
     out->turn = fibre->turn(&cell);
-    if (fibre->corners) {
+    if (fibre == &cage_so3) {
         int32_t corner[8][4];
         fibre->corners(&cell, corner);
         cage_corners_of(out->q, corner, corners);
