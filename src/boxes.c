@@ -3,6 +3,8 @@
 #include "chart.h"
 #include "read.h"
 
+#include <string.h>
+
 static bool is_side(const cage_atlas *atlas, int32_t side)
 {
     return atlas && (side == CAGE_SIDE_INNER || side == CAGE_SIDE_OUTER) && (atlas->side & side);
@@ -52,6 +54,7 @@ struct frame {
     uint32_t entry; /* of the chart: where its halves' entries begin, or the list that holds for all of them */
     bool listed;
     uint32_t left;  /* halves to do */
+    uint32_t met[(CAGE_CHART_BALLS_3D + 31) / 32]; /* of the list's balls, bit by bit, those that meet it */
 };
 
 struct visitor {
@@ -61,6 +64,7 @@ struct visitor {
     uint32_t of;     /* where the classes of nodes begin */
     uint32_t class;
     int32_t least;   /* bits of the smallest boxes that are halved for their lists */
+    int32_t low[3], high[3]; /* beyond that box there is nothing of it */
     void (*visit)(void *context, const cage_atlas_box *box);
     void *context;
     int64_t count;
@@ -85,22 +89,28 @@ static bool may_hold(const struct visitor *v, uint32_t list)
 
 enum { NONE, PART, WHOLE };
 
-/* How much of the box belongs to the class. Where no ball meets it, all of it lies in one component. */
-static int32_t share(const struct visitor *v, uint32_t list, const cage_atlas_box *at)
+/* How much of the box belongs to the class: looks at the balls that may meet it, and leaves those that do. Where none does, all of
+ * it lies in one component. */
+static int32_t share(const struct visitor *v, struct frame *f, const cage_atlas_box *at)
 {
-    uint32_t balls = cage_read_word(v->atlas, list) & 65535;
+    uint32_t balls = cage_read_word(v->atlas, f->entry) & 65535;
     const struct cage_box box = {{at->low[0], at->low[1], at->low[2]}, {at->high[0], at->high[1], at->high[2]}};
     bool met = false;
-    for (uint32_t i = 0; i < balls; i++) {
-        const cage_ball ball = cage_read_ball(v->atlas, v->chart + cage_read_word(v->atlas, list + 2 + i));
+    for (uint32_t i = 0; i < balls && i < CAGE_CHART_BALLS_3D; i++) {
+        if (!(f->met[i / 32] >> i % 32 & 1))
+            continue;
+        const cage_ball ball = cage_read_ball(v->atlas, v->chart + cage_read_word(v->atlas, f->entry + 2 + i));
         const struct cage_site site = {0, ball.x, ball.y, ball.z, ball.r};
-        if (cage_box_is_held(&box, &site))
+        if (cage_box_is_apart(&box, &site))
+            f->met[i / 32] &= ~((uint32_t)1 << i % 32);
+        else if (cage_box_is_held(&box, &site))
             return NONE;
-        met = met || !cage_box_is_apart(&box, &site);
+        else
+            met = true;
     }
     if (met)
         return PART;
-    return is_in(v, cage_read_list(v->atlas, v->chart, list, at->low)) ? WHOLE : NONE;
+    return is_in(v, cage_read_list(v->atlas, v->chart, f->entry, at->low)) ? WHOLE : NONE;
 }
 
 static void tell(struct visitor *v, cage_atlas_box *box, int32_t share)
@@ -112,17 +122,16 @@ static void tell(struct visitor *v, cage_atlas_box *box, int32_t share)
     v->count++;
 }
 
-/* A half of the frame's box, clipped to the bounding box; false: nothing is left of it. */
+/* A half of the frame's box, clipped to the box of the class (of class 0: of all balls); false: nothing is left of it. */
 static bool half_of(const struct visitor *v, const struct frame *f, uint32_t half, cage_atlas_box *box)
 {
     for (uint32_t k = 0; k < 3; k++) {
         bool used = k < (uint32_t)v->atlas->dim;
-        int64_t most = cage_read_length(v->atlas, v->chart + CAGE_CHART_HIGH + k), size = (int64_t)1 << (f->bits - 1);
-        int64_t low = f->low[k] + (half >> k & 1 ? size : 0), high = low + size - 1;
-        high = high < most ? high : most;
-        if (used && low > high)
+        int64_t size = (int64_t)1 << (f->bits - 1), low = f->low[k] + (half >> k & 1 ? size : 0), high = low + size - 1;
+        high = high < v->high[k] ? high : v->high[k];
+        if (used && (low > high || high < v->low[k]))
             return false;
-        box->low[k] = used ? (int32_t)low : 0;
+        box->low[k] = !used ? 0 : low > v->low[k] ? (int32_t)low : v->low[k];
         box->high[k] = used ? (int32_t)high : 0;
     }
     return true;
@@ -135,21 +144,53 @@ static bool look_at(struct visitor *v, struct frame *f, struct frame *next)
     cage_atlas_box box;
     if (!half_of(v, f, half, &box))
         return false;
-    const struct frame below = {{box.low[0], box.low[1], box.low[2]}, f->bits - 1,
-                                f->listed ? f->entry : v->chart + (entry >> 2), (entry & 3) == CAGE_CHART_LIST,
-                                (uint32_t)1 << v->atlas->dim};
-    *next = below;
+    *next = *f;
+    for (uint32_t k = 0; k < 3; k++)
+        next->low[k] += half >> k & 1 ? (int32_t)1 << (f->bits - 1) : 0;
+    next->bits--;
+    next->left = (uint32_t)1 << v->atlas->dim;
+    if (!f->listed) {
+        next->entry = v->chart + (entry >> 2);
+        next->listed = (entry & 3) == CAGE_CHART_LIST;
+        memset(next->met, 0xff, sizeof next->met);
+    }
     if ((entry & 3) == CAGE_CHART_LABEL)
         tell(v, &box, is_in(v, (int32_t)(entry >> 2) - 1) ? WHOLE : NONE);
     if ((entry & 3) == CAGE_CHART_SPLIT)
-        return below.bits > 0 && v->splits++ < v->atlas->words;
-    if ((entry & 3) != CAGE_CHART_LIST || (!f->listed && !may_hold(v, below.entry)))
+        return next->bits > 0 && v->splits++ < v->atlas->words;
+    if ((entry & 3) != CAGE_CHART_LIST || (!f->listed && !may_hold(v, next->entry)))
         return false;
-    int32_t part = share(v, below.entry, &box);
-    if (part == PART && below.bits > 0 && below.bits > v->least)
+    int32_t part = share(v, next, &box);
+    if (part == PART && next->bits > 0 && next->bits > v->least)
         return true;
     tell(v, &box, part);
     return false;
+}
+
+/* The box that holds all that is looked for; bits of its longest side. */
+static int32_t bound(struct visitor *v, uint32_t table)
+{
+    int32_t bits = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t low = v->class ? table + CAGE_CLASS_LOW : v->chart + CAGE_CHART_LOW;
+        uint32_t high = v->class ? table + CAGE_CLASS_HIGH : v->chart + CAGE_CHART_HIGH;
+        v->low[k] = cage_read_length(v->atlas, low + k);
+        v->high[k] = cage_read_length(v->atlas, high + k);
+        while (((int64_t)1 << bits) <= (int64_t)v->high[k] - v->low[k])
+            bits++;
+    }
+    return bits;
+}
+
+/* Is a component of the cell of the class? */
+static bool is_over(const cage_atlas *atlas, int32_t side, int32_t cell, const struct visitor *v)
+{
+    uint32_t next = cage_read_side(atlas, side, CAGE_SIDE_LEAF) + 2 * (uint32_t)cell + 3;
+    uint32_t end = cell + 1 < atlas->leaves ? cage_read_word(atlas, next) : (uint32_t)atlas->nodes[side];
+    bool over = false;
+    for (uint32_t node = v->node; node < end && !over; node++)
+        over = cage_read_word(atlas, v->of + node) == v->class;
+    return over;
 }
 
 int64_t cage_atlas_boxes(const cage_atlas *atlas, int32_t side, int32_t cell, int32_t class_number, int32_t halvings,
@@ -160,15 +201,21 @@ int64_t cage_atlas_boxes(const cage_atlas *atlas, int32_t side, int32_t cell, in
         return CAGE_ERROR_ARGUMENT;
     uint32_t leaf = cage_read_side(atlas, side == CAGE_SIDE_OUTER, CAGE_SIDE_LEAF) + 2 * (uint32_t)cell;
     struct visitor v = {atlas, cage_read_word(atlas, leaf), cage_read_word(atlas, leaf + 1),
-                        cage_read_side(atlas, side == CAGE_SIDE_OUTER, CAGE_SIDE_CLASS), (uint32_t)class_number, 0, visit, context, 0, 0};
+                        cage_read_side(atlas, side == CAGE_SIDE_OUTER, CAGE_SIDE_CLASS), (uint32_t)class_number, 0, {0, 0, 0}, {0, 0, 0}, visit, context, 0, 0};
     int32_t bits = (int32_t)(cage_read_word(atlas, v.chart + CAGE_CHART_BITS) & 31), depth = 0;
+    uint32_t table = cage_read_side(atlas, side == CAGE_SIDE_OUTER, CAGE_SIDE_TABLE) + (uint32_t)class_number * CAGE_CLASS_WORDS;
     struct frame frame[DEEPEST];
     bits = bits < 29 ? bits : 29;
-    v.least = bits - halvings;
+    v.least = bound(&v, table) - halvings;
     /* The root is the low half of a box twice as large, of which nothing else is done. */
-    const struct frame top = {{cage_read_length(atlas, v.chart + CAGE_CHART_LOW), cage_read_length(atlas, v.chart + CAGE_CHART_LOW + 1),
-                               cage_read_length(atlas, v.chart + CAGE_CHART_LOW + 2)}, bits + 1, v.chart + CAGE_CHART_ROOT, false, 1};
-    frame[0] = top;
+    memset(&frame[0], 0, sizeof frame[0]);
+    for (uint32_t k = 0; k < 3; k++)
+        frame[0].low[k] = cage_read_length(atlas, v.chart + CAGE_CHART_LOW + k);
+    frame[0].bits = bits + 1;
+    frame[0].entry = v.chart + CAGE_CHART_ROOT;
+    frame[0].left = 1;
+    if (!is_over(atlas, side == CAGE_SIDE_OUTER, cell, &v))
+        return 0;
     while (depth >= 0) {
         if (frame[depth].left == 0)
             depth--;

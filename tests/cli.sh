@@ -766,6 +766,66 @@ assert not r["inner"][0]["bounded"] and r["inner"][1]["bounded"] and len(r["inne
 low, high = r["inner"][1]["low"], r["inner"][1]["high"]
 assert all(-2.5 < a < -1 and 1 < b < 2.5 for a, b in zip(low, high)), r' "$folder/out"
 fi
+# What a bounded class of the side named has in all, at least and at most, from the JSON.
+volumes() {
+    $python -c 'import json, sys
+r = json.load(open(sys.argv[1]))
+v = [c["volume"] for c in r[sys.argv[2]] if c["bounded"]]
+print(sum(a for a, b in v), sum(b for a, b in v))' "$folder/out" "$1"
+}
+if [ -n "$python" ]; then
+    # Free poses counted one by one, as an average over the angles, against both sides: around is a pivot in the middle square.
+    around=$(awk 'BEGIN {
+        n = 64; pi = atan2(0, -1)
+        for (t = 0; t < n; t++) for (i = 0; i < n; i++) for (j = 0; j < n; j++) {
+            x = (i + 0.5) / n * 8 - 4; y = (j + 0.5) / n * 8 - 4; a = (t + 0.5) / n * 2 * pi; clear = 1
+            for (k = -1; k <= 1 && clear; k++) for (u = -4; u <= 4 && clear; u += 4) for (v = -4; v <= 4; v += 4) {
+                dx = x + 0.9 * k * cos(a) - u; dy = y + 0.9 * k * sin(a) - v
+                if ((u != 0 || v != 0) && dx * dx + dy * dy < 9) { clear = 0; break }
+            }
+            sum += clear
+        }
+        print sum / n / n / n * 64
+    }')
+    atlas "volumes on both sides of the true one" bar fence --level 8 --volumes 9 --json
+    holds [ "$code" -eq 0 ]
+    set -- $(volumes inner) $(volumes outer)
+    holds awk -v v="$around" -v il="$1" -v ih="$2" -v ol="$3" -v oh="$4" \
+        'BEGIN { exit !(v > 0.1 && ol > 0.8 * v && ol < 1.01 * v && ih > 0.99 * v && ih < 1.3 * v && il <= ih && ol <= oh && oh <= ih) }'
+    around=$(awk 'BEGIN {
+        n = 60
+        for (i = 0; i < n; i++) for (j = 0; j < n; j++) for (l = 0; l < n; l++) {
+            x = (i + 0.5) / n * 4 - 2; y = (j + 0.5) / n * 4 - 2; z = (l + 0.5) / n * 4 - 2; clear = 1
+            for (u = -4; u <= 4 && clear; u += 4) for (v = -4; v <= 4 && clear; v += 4) for (w = -4; w <= 4; w += 4)
+                if ((u != 0 || v != 0 || w != 0) && (x - u) ^ 2 + (y - v) ^ 2 + (z - w) ^ 2 < 12.25) { clear = 0; break }
+            sum += clear
+        }
+        print sum / n / n / n * 64
+    }')
+    atlas "and in space, over all rotations" ball crate --level 1 --volumes 7 --json
+    set -- $(volumes inner) $(volumes outer)
+    holds awk -v v="$around" -v il="$1" -v ih="$2" -v ol="$3" -v oh="$4" \
+        'BEGIN { exit !(v > 0.1 && ol > 0.6 * v && ol < 1.01 * v && il < 1.01 * v && ih > 0.99 * v && ih < 1.4 * v && oh > 0.99 * v) }'
+fi
+atlas "pictures of its classes" bar fence --level 4 --quiet --svg "$folder/classes"
+holds [ "$code" -eq 0 ]
+holds grep -q 'Inner class 1' "$folder/classes/inner-1.svg"
+holds grep -q 'Outer class 1' "$folder/classes/outer-1.svg"
+atlas "and meshes" ball crate --level 0 --quiet --ply "$folder/classes"
+holds grep -q '^comment Inner class 1: obstacles grey' "$folder/classes/inner-1.ply"
+atlas "no mesh in the plane" bar fence --ply "$folder/classes"
+refused '--ply: a mesh is of a scene in space'
+atlas "no folder there" bar fence --level 3 --svg "$folder/none/classes"
+refused '.*none/classes cannot be made'
+atlas "passages as JSON" bar fence --level 4 --passages 4 --json
+if [ -n "$python" ]; then
+    holds $python -c 'import json, sys
+r = json.load(open(sys.argv[1]))
+p = r["passages"]
+assert len(p) > 0 and all(a["closed"] < a["open"] for a in p), p
+assert all(a["narrow"] is None or len(a["narrow"]) == 3 for a in p), p
+assert any(a["to"] == 0 and 0 < a["open"] < 1 for a in p), p' "$folder/out"
+fi
 atlas "as a C array" bar fence --level 4 --quiet --c-header "$folder/atlas.h"
 if command -v cc >/dev/null 2>&1; then
     printf '#include "%s"\n#include <stdio.h>\nint main(void) { return fwrite(cage_atlas_bytes, 1, sizeof cage_atlas_bytes, stdout) == 0; }\n' \

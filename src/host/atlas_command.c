@@ -7,9 +7,11 @@
 #include "threads.h"
 
 #define MOST_CELLS (1 << 24)
+#define HALVINGS_2D 7 /* of boxes, to bound volumes */
+#define HALVINGS_3D 4
 
 typedef struct options {
-    const char *object, *obstacles, *output, *header, *side, *level, *budget, *memory, *unit, *passages, *threads;
+    const char *object, *obstacles, *output, *header, *side, *level, *budget, *memory, *unit, *passages, *threads, *volumes, *svg, *ply;
     int json, quiet;
 } options;
 
@@ -36,6 +38,10 @@ void host_atlas_help(FILE *out)
         "  --memory BYTES    one block of this size and no more; K, M and G mean 1024, 1024^2, 1024^3\n"
         "  --threads N       work on so many cores (default: all, with --memory one); the atlas is the same\n"
         "  --unit U          length of a grid unit (default: the finest power of two at which the scene fits)\n"
+        "  --volumes N       the bounds of volumes from boxes down to 1/2^N of the scene (0 to 20, default %d in the plane, %d in\n"
+        "                    space): the volume of a class is that of its translations, averaged over all rotations\n"
+        "  --svg DIR         a picture of each large bounded class, as DIR/inner-N.svg and DIR/outer-N.svg\n"
+        "  --ply DIR         in space: the same as meshes (ASCII PLY)\n"
         "  --passages N      for each large bounded outer class: by how much every radius must shrink for it to open into\n"
         "                    the outside, or into another one, and where; by N proofs for each pair (takes a while)\n"
         "  --c-header FILE   write the atlas as a C array as well, for a firmware build\n"
@@ -51,7 +57,7 @@ void host_atlas_help(FILE *out)
         "example:\n"
         "  cage atlas --object examples/walls/plus.xyzr --obstacles examples/walls/walls_R4.xyzr -o walls.atlas\n"
         "  cage query walls.atlas --at 185,195,45\n",
-        CAGE_LEVEL_MAX_2D, CAGE_LEVEL_MAX_3D);
+        CAGE_LEVEL_MAX_2D, CAGE_LEVEL_MAX_3D, HALVINGS_2D, HALVINGS_3D);
 }
 
 static int read_options(int argc, char **argv, options *given, host_error *error)
@@ -62,7 +68,8 @@ static int read_options(int argc, char **argv, options *given, host_error *error
         { "--side", &given->side, NULL },     { "--level", &given->level, NULL },
         { "--budget", &given->budget, NULL }, { "--memory", &given->memory, NULL },
         { "--unit", &given->unit, NULL },     { "--passages", &given->passages, NULL },
-        { "--threads", &given->threads, NULL },
+        { "--threads", &given->threads, NULL }, { "--volumes", &given->volumes, NULL },
+        { "--svg", &given->svg, NULL },       { "--ply", &given->ply, NULL },
         { "--json", NULL, &given->json },
         { "--quiet", NULL, &given->quiet },
     };
@@ -142,14 +149,14 @@ static int run(const options *given, host_query *query, host_grid *grid, host_bu
 {
     cage_plan plan;
     size_t bytes = 0;
-    int32_t rounds = 0;
+    int32_t rounds = 0, halvings = -1;
+    host_passages passages, *told = given->passages != NULL ? &passages : NULL;
     int code = HOST_OK;
 
     if (given->passages != NULL)
         code = host_blame(error, "--passages", host_parse_integer(given->passages, 0, 64, &rounds, error));
-    if (code == HOST_OK && given->passages != NULL && given->json)
-        code = host_fail(error, HOST_BAD_INPUT, "--passages: they are part of the table; there is none with --json");
-
+    if (code == HOST_OK && given->volumes != NULL)
+        code = host_blame(error, "--volumes", host_parse_integer(given->volumes, 0, 20, &halvings, error));
     made->threads = given->memory != NULL ? 1 : host_threads_cores();
     if (code == HOST_OK && given->threads != NULL)
         code = host_blame(error, "--threads", host_parse_integer(given->threads, 1, 64, &made->threads, error));
@@ -157,6 +164,8 @@ static int run(const options *given, host_query *query, host_grid *grid, host_bu
         code = host_blame(error, "--memory", host_parse_bytes(given->memory, &bytes, error));
     if (code == HOST_OK)
         code = read_scene(given, query, grid, error);
+    if (code == HOST_OK && given->ply != NULL && query->dim != 3)
+        code = host_fail(error, HOST_BAD_INPUT, "--ply: a mesh is of a scene in space, and this one is in the plane (see --svg)");
     if (code == HOST_OK)
         code = read_plan(given, query->dim, grid->unit, &plan, error);
     if (code == HOST_OK)
@@ -171,12 +180,16 @@ static int run(const options *given, host_query *query, host_grid *grid, host_bu
         host_forget_facts(given->output, made);
     if (code == HOST_OK && given->header != NULL)
         code = write_header(given->header, made, error);
+    if (code == HOST_OK && told != NULL)
+        code = host_find_passages(&grid->scene, made, grid->unit, rounds, told, error);
+    if (code == HOST_OK && (given->svg != NULL || given->ply != NULL))
+        code = host_draw_classes(given->svg, given->ply, query, grid, made, error);
+    if (halvings < 0)
+        halvings = query->dim == 2 ? HALVINGS_2D : HALVINGS_3D;
     if (code == HOST_OK && given->json)
-        host_report_atlas_json(stdout, made, grid->unit);
-    else if (code == HOST_OK && !given->quiet)
-        host_report_atlas(stdout, given->output, made, grid->unit);
-    if (code == HOST_OK && given->passages != NULL)
-        code = host_print_passages(stdout, &grid->scene, made, grid->unit, rounds, error);
+        host_report_atlas_json(stdout, made, grid->unit, halvings, told);
+    else if (code == HOST_OK && (!given->quiet || told != NULL))
+        host_report_atlas(stdout, given->output, made, grid->unit, halvings, told);
     return code;
 }
 

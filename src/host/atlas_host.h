@@ -24,6 +24,20 @@ typedef struct host_row {
     cage_class class;
 } host_row;
 
+/* By how much all balls must shrink for two outer classes to be one (to 0: for the outside), and where. */
+typedef struct host_passage {
+    int32_t from, to;
+    cage_margin margin;
+} host_passage;
+
+#define HOST_PASSAGE_CLASSES 6
+#define HOST_PASSAGES (HOST_PASSAGE_CLASSES * (HOST_PASSAGE_CLASSES + 1) / 2)
+
+typedef struct host_passages {
+    host_passage list[HOST_PASSAGES];
+    int32_t count;
+} host_passages;
+
 /* Builds it in a block of the size given, or (bytes null) in one that grows; goes on from what is in the file of facts beside
  * `path`, and keeps there what was found out when it takes long. */
 int host_build_atlas(const cage_scene *scene, const cage_plan *plan, const size_t *bytes, const char *path, int quiet,
@@ -32,14 +46,29 @@ int host_build_atlas(const cage_scene *scene, const cage_plan *plan, const size_
 /* The atlas was written: facts are not needed any more. */
 void host_forget_facts(const char *path, const host_built *made);
 
+#define HOST_ROWS 24 /* classes of a side that are told in full */
+
 /* All classes of a side, the largest first, the caller's to free; null without memory. */
 host_row *host_rows(const cage_atlas *atlas, int32_t side);
 
-void host_report_atlas(FILE *out, const char *path, const host_built *made, double unit);
-void host_report_atlas_json(FILE *out, const host_built *made, double unit);
+/* Passages null: they were not asked for. */
+void host_report_atlas(FILE *out, const char *path, const host_built *made, double unit, int32_t halvings,
+                       const host_passages *passages);
+void host_report_atlas_json(FILE *out, const host_built *made, double unit, int32_t halvings, const host_passages *passages);
 
-/* Where the large bounded outer classes join others or the outside when all balls shrink: a table, by proofs of its own. */
-int host_print_passages(FILE *out, const cage_scene *scene, const host_built *made, double unit, int32_t rounds,
-                        host_error *error);
+/* Between all pairs of the largest bounded outer classes, and from each to the outside, by proofs of their own. */
+int host_find_passages(const cage_scene *scene, const host_built *made, double unit, int32_t rounds, host_passages *out,
+                       host_error *error);
+
+/* At least and at most how large a bounded class is, as the average over all rotations of what its translations fill; boxes are
+ * halved so often to find out. In the user's unit. */
+void host_volume(const cage_atlas *atlas, int32_t side, int32_t number, double unit, int32_t halvings, double bound[2]);
+
+/* The angle, in degrees, that rotations of the class differ from its middle one at most; 180: they may be any. */
+double host_class_turn(const cage_class *class);
+
+/* A picture (SVG, and in space a mesh, where its folder is not null) of each large bounded class. */
+int host_draw_classes(const char *svg, const char *ply, const host_query *query, const host_grid *grid, const host_built *made,
+                      host_error *error);
 
 #endif

@@ -1,9 +1,8 @@
 /* atlas_report.c: an atlas as a table of its classes, and as one JSON object. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "atlas_host.h"
-
-#define ROWS 24 /* of the table, for each side */
 
 static int by_size(const void *a, const void *b)
 {
@@ -29,18 +28,44 @@ host_row *host_rows(const cage_atlas *atlas, int32_t side)
     return made;
 }
 
-static void print_class(FILE *out, const host_row *r, int32_t dim, double unit)
+double host_class_turn(const cage_class *class)
 {
+    const double sine = class->sine / 1073741824.0;
+
+    return sine < 1 ? asin(sine) * 360 / acos(-1.0) : 180;
+}
+
+static void print_turn(FILE *out, const cage_class *class, int32_t dim)
+{
+    const double turn = host_class_turn(class);
+
+    if (turn >= 180)
+        (void)fprintf(out, "  any turn");
+    else if (dim == 2)
+        (void)fprintf(out, "  turn %.4g +- %.4g", atan2(class->q[3], class->q[0]) * 360 / acos(-1.0), turn);
+    else
+        (void)fprintf(out, "  turn within %.4g of %ld,%ld,%ld,%ld", turn, (long)class->q[0], (long)class->q[1], (long)class->q[2],
+                      (long)class->q[3]);
+}
+
+static void print_class(FILE *out, const host_row *r, const cage_atlas *atlas, int32_t side, double unit, int32_t halvings)
+{
+    double bound[2];
     int k;
 
     (void)fprintf(out, "  %7ld  %-8s %7ld %7ld", (long)r->number, r->number == 0 ? "outside" : "bounded", (long)r->class.cells,
                   (long)r->class.nodes);
-    for (k = 0; k < dim && r->number > 0; k++)
-        (void)fprintf(out, "  %c %.5g to %.5g", "xyz"[k], r->class.low[k] * unit, r->class.high[k] * unit);
+    if (r->number > 0) {
+        host_volume(atlas, side, r->number, unit, halvings, bound);
+        (void)fprintf(out, "  %10.4g %10.4g", bound[0], bound[1]);
+        for (k = 0; k < atlas->dim; k++)
+            (void)fprintf(out, "  %c %.5g to %.5g", "xyz"[k], r->class.low[k] * unit, r->class.high[k] * unit);
+        print_turn(out, &r->class, atlas->dim);
+    }
     (void)fprintf(out, "\n");
 }
 
-static void print_side(FILE *out, const cage_atlas *atlas, int32_t side, double unit)
+static void print_side(FILE *out, const cage_atlas *atlas, int32_t side, double unit, int32_t halvings)
 {
     const int32_t count = atlas->classes[side == CAGE_SIDE_OUTER];
     host_row *rows = host_rows(atlas, side);
@@ -48,15 +73,39 @@ static void print_side(FILE *out, const cage_atlas *atlas, int32_t side, double 
 
     (void)fprintf(out, "\n%s, %ld classes: %s\n", side == CAGE_SIDE_INNER ? "Inner" : "Outer", (long)count,
                   side == CAGE_SIDE_INNER ? "no path joins two of them" : "paths join all that is in one");
-    (void)fprintf(out, "  %7s  %-8s %7s %7s  where the pivot is\n", "class", "", "cells", "pieces");
-    for (i = 0; rows != NULL && i < count && i < ROWS; i++)
-        print_class(out, &rows[i], atlas->dim, unit);
-    if (count > ROWS)
-        (void)fprintf(out, "  ... and %ld smaller ones\n", (long)(count - ROWS));
+    (void)fprintf(out, "  %7s  %-8s %7s %7s  %10s %10s  where the pivot is\n", "class", "", "cells", "pieces", "volume >=", "<=");
+    for (i = 0; rows != NULL && i < count && i < HOST_ROWS; i++)
+        print_class(out, &rows[i], atlas, side, unit, halvings);
+    if (count > HOST_ROWS)
+        (void)fprintf(out, "  ... and %ld smaller ones\n", (long)(count - HOST_ROWS));
     free(rows);
 }
 
-void host_report_atlas(FILE *out, const char *path, const host_built *made, double unit)
+static void print_passages(FILE *out, const host_passages *passages, const cage_atlas *atlas, double unit)
+{
+    int32_t i;
+
+    (void)fprintf(out, "\nPassages: two outer classes join when every radius shrinks by (not by the first, by the second)\n");
+    for (i = 0; i < passages->count; i++) {
+        const host_passage *passage = &passages->list[i];
+        const cage_margin *margin = &passage->margin;
+        host_pose narrow;
+        char to[16] = "the outside";
+
+        if (passage->to > 0)
+            (void)snprintf(to, sizeof to, "%ld", (long)passage->to);
+        (void)fprintf(out, "  %5ld and %-11s  %.6g, %.6g", (long)passage->from, to, margin->closed * unit, margin->open * unit);
+        if (margin->known) {
+            host_from_grid(&margin->narrow, margin->pivot, atlas->dim, unit, &narrow);
+            (void)fprintf(out, "  at ");
+            host_print_pose(out, &narrow);
+        }
+        (void)fprintf(out, "\n");
+    }
+}
+
+void host_report_atlas(FILE *out, const char *path, const host_built *made, double unit, int32_t halvings,
+                       const host_passages *passages)
 {
     const cage_survey_result *work = &made->work;
     const double balls = (double)(work->balls[0] + work->balls[1]);
@@ -73,34 +122,98 @@ void host_report_atlas(FILE *out, const char *path, const host_built *made, doub
         (void)fprintf(out, "        since it was interrupted, or its memory grew\n");
     (void)fprintf(out, "Unit    %.6g\n", unit);
     if (made->atlas.side & CAGE_SIDE_INNER)
-        print_side(out, &made->atlas, CAGE_SIDE_INNER, unit);
+        print_side(out, &made->atlas, CAGE_SIDE_INNER, unit, halvings);
     if (made->atlas.side & CAGE_SIDE_OUTER)
-        print_side(out, &made->atlas, CAGE_SIDE_OUTER, unit);
+        print_side(out, &made->atlas, CAGE_SIDE_OUTER, unit, halvings);
+    if (passages != NULL)
+        print_passages(out, passages, &made->atlas, unit);
 }
 
-static void json_side(FILE *out, const char *name, const cage_atlas *atlas, int32_t side, double unit)
+static void json_numbers(FILE *out, const char *name, const double *number, int count)
 {
-    const int32_t count = atlas->side & side ? atlas->classes[side == CAGE_SIDE_OUTER] : 0;
-    int32_t i;
     int k;
 
-    (void)fprintf(out, ",\n  \"%s\": [", name);
-    for (i = 0; i < count; i++) {
-        cage_class class;
-
-        (void)cage_atlas_class(atlas, side, i, &class);
-        (void)fprintf(out, "%s\n    {\"class\": %ld, \"bounded\": %s, \"cells\": %ld, \"components\": %ld", i > 0 ? "," : "", (long)i,
-                      i > 0 ? "true" : "false", (long)class.cells, (long)class.nodes);
-        for (k = 0; k < 2 * atlas->dim && i > 0; k++)
-            (void)fprintf(out, "%s%.17g%s", k == 0 ? ", \"low\": [" : k == atlas->dim ? "], \"high\": [" : ", ",
-                          (k < atlas->dim ? class.low[k] : class.high[k - atlas->dim]) * unit + 0.0,
-                          k == 2 * atlas->dim - 1 ? "]" : "");
-        (void)fprintf(out, "}");
-    }
-    (void)fprintf(out, "%s]", count > 0 ? "\n  " : "");
+    (void)fprintf(out, ", \"%s\": [", name);
+    for (k = 0; k < count; k++)
+        (void)fprintf(out, "%s%.17g", k > 0 ? ", " : "", number[k] + 0.0);
+    (void)fprintf(out, "]");
 }
 
-void host_report_atlas_json(FILE *out, const host_built *made, double unit)
+/* "turn" is how far rotations may be from "middle". */
+static void json_class(FILE *out, const cage_atlas *atlas, const host_row *r, double unit, const double *volume)
+{
+    const cage_class *class = &r->class;
+    const double q[4] = { class->q[0], class->q[1], class->q[2], class->q[3] };
+    const double middle = atan2(q[3], q[0]) * 360 / acos(-1.0);
+    double low[3], high[3];
+    int k;
+
+    (void)fprintf(out, "{\"class\": %ld, \"bounded\": %s, \"cells\": %ld, \"components\": %ld", (long)r->number,
+                  r->number > 0 ? "true" : "false", (long)class->cells, (long)class->nodes);
+    if (r->number > 0) {
+        for (k = 0; k < 3; k++) {
+            low[k] = class->low[k] * unit;
+            high[k] = class->high[k] * unit;
+        }
+        json_numbers(out, "low", low, atlas->dim);
+        json_numbers(out, "high", high, atlas->dim);
+        json_numbers(out, "middle", atlas->dim == 2 ? &middle : q, atlas->dim == 2 ? 1 : 4);
+        (void)fprintf(out, ", \"turn\": %.17g", host_class_turn(class));
+        if (volume != NULL)
+            json_numbers(out, "volume", volume, 2);
+    }
+    (void)fprintf(out, "}");
+}
+
+/* In the order of their numbers; volumes of the largest. */
+static void json_side(FILE *out, const char *name, const cage_atlas *atlas, int32_t side, double unit, int32_t halvings)
+{
+    const int32_t count = atlas->side & side ? atlas->classes[side == CAGE_SIDE_OUTER] : 0;
+    host_row *rows = count > 0 ? host_rows(atlas, side) : NULL, *large = NULL;
+    int32_t i, k;
+
+    (void)fprintf(out, ",\n  \"%s\": [", name);
+    for (i = 0; rows != NULL && i < count; i++) {
+        host_row row;
+        double volume[2];
+
+        row.number = i;
+        (void)cage_atlas_class(atlas, side, i, &row.class);
+        for (large = NULL, k = 0; k < count && k < HOST_ROWS && i > 0; k++)
+            large = rows[k].number == i ? &rows[k] : large;
+        if (large != NULL)
+            host_volume(atlas, side, i, unit, halvings, volume);
+        (void)fprintf(out, "%s\n    ", i > 0 ? "," : "");
+        json_class(out, atlas, &row, unit, large != NULL ? volume : NULL);
+    }
+    (void)fprintf(out, "%s]", count > 0 ? "\n  " : "");
+    free(rows);
+}
+
+static void json_passages(FILE *out, const host_passages *passages, const cage_atlas *atlas, double unit)
+{
+    int32_t i;
+
+    (void)fprintf(out, ",\n  \"passages\": [");
+    for (i = 0; i < passages->count; i++) {
+        const host_passage *passage = &passages->list[i];
+        const cage_margin *margin = &passage->margin;
+        host_pose narrow;
+
+        (void)fprintf(out, "%s\n    {\"from\": %ld, \"to\": %ld, \"closed\": %.17g, \"open\": %.17g, \"narrow\": ", i > 0 ? "," : "",
+                      (long)passage->from, (long)passage->to, margin->closed * unit, margin->open * unit);
+        if (margin->known)
+            host_from_grid(&margin->narrow, margin->pivot, atlas->dim, unit, &narrow);
+        (void)fprintf(out, margin->known ? "[" : "null}");
+        if (margin->known) {
+            host_print_pose(out, &narrow);
+            (void)fprintf(out, "]}");
+        }
+    }
+    (void)fprintf(out, "%s]", passages->count > 0 ? "\n  " : "");
+}
+
+void host_report_atlas_json(FILE *out, const host_built *made, double unit, int32_t halvings, const host_passages *passages)
 {
     const cage_survey_result *work = &made->work;
 
@@ -111,7 +224,9 @@ void host_report_atlas_json(FILE *out, const host_built *made, double unit)
                   (long long)work->balls[1]);
     (void)fprintf(out, "  \"peak_bytes\": %llu,\n  \"seconds\": %.6f,\n  \"side\": %ld", (unsigned long long)work->peak_bytes,
                   made->seconds, (long)made->atlas.side);
-    json_side(out, "inner", &made->atlas, CAGE_SIDE_INNER, unit);
-    json_side(out, "outer", &made->atlas, CAGE_SIDE_OUTER, unit);
+    json_side(out, "inner", &made->atlas, CAGE_SIDE_INNER, unit, halvings);
+    json_side(out, "outer", &made->atlas, CAGE_SIDE_OUTER, unit, halvings);
+    if (passages != NULL)
+        json_passages(out, passages, &made->atlas, unit);
     (void)fprintf(out, "\n}\n");
 }

@@ -73,7 +73,8 @@ typedef struct host_answer {
     cage_proof *proof;
     double seconds;
     const cage_margin *margin; /* null where it was not asked for */
-    const struct picture_cloud *cloud; /* in space: where the pivot can be, null where it was not looked for (picture.h) */
+    const struct picture_cloud *cloud; /* where the pivot can be (in the plane looked for by who draws), or null (picture.h) */
+    const char *name, *title;          /* of a picture; null: its verdict, and what that means */
 } host_answer;
 
 /* ---- options.c -------------------------------------------------------------------------------- */

@@ -3,14 +3,7 @@
 
 #include "atlas_host.h"
 
-#define MOST_PASSAGE_CLASSES 6
-#define MOST_PASSAGES (MOST_PASSAGE_CLASSES * (MOST_PASSAGE_CLASSES + 1) / 2)
 #define PASSAGE_CELLS 1024 /* of each proof: where a passage just opens, more would tell little */
-
-typedef struct passage {
-    int32_t from, to; /* outer classes; to 0: the outside */
-    cage_margin margin;
-} passage;
 
 /* The known pose of an outer class, in the user's frame; it is off by less than the outer side gives away. */
 static int pose_of(const cage_atlas *atlas, int32_t class, double unit, cage_pose *pose)
@@ -24,9 +17,8 @@ static int pose_of(const cage_atlas *atlas, int32_t class, double unit, cage_pos
     return host_pose_to_grid(&user, unit, pose) == HOST_OK;
 }
 
-/* By shrinking all balls, between all pairs of the largest bounded outer classes, and from each to the outside. */
-static int find_passages(const cage_scene *scene, const host_built *made, double unit, int32_t rounds, passage *list,
-                         int32_t *count, host_error *error)
+int host_find_passages(const cage_scene *scene, const host_built *made, double unit, int32_t rounds, host_passages *out,
+                       host_error *error)
 {
     host_row *rows = host_rows(&made->atlas, CAGE_SIDE_OUTER);
     size_t size = HOST_FIRST_BLOCK;
@@ -37,55 +29,22 @@ static int find_passages(const cage_scene *scene, const host_built *made, double
 
     cage_limits_default(&limits, scene->dim);
     limits.max_cells = PASSAGE_CELLS;
-    *count = 0;
-    for (i = 0; state == CAGE_OK && i < classes && i <= MOST_PASSAGE_CLASSES; i++)
+    out->count = 0;
+    for (i = 0; state == CAGE_OK && i < classes && i <= HOST_PASSAGE_CLASSES; i++)
         for (k = 0; state == CAGE_OK && k < i; k++) {
             const int32_t from = rows[rows[i].number == 0 ? k : i].number, to = rows[rows[i].number == 0 ? i : k].number;
             cage_pose start, goal;
 
             if (!pose_of(&made->atlas, from, unit, &start) || (to > 0 && !pose_of(&made->atlas, to, unit, &goal)))
                 continue;
-            list[*count].from = from;
-            list[*count].to = to;
-            state = cage_margin_find(scene, &start, to > 0 ? &goal : NULL, &limits, rounds, block, size, &list[*count].margin);
-            *count += state == CAGE_OK;
+            out->list[out->count].from = from;
+            out->list[out->count].to = to;
+            state = cage_margin_find(scene, &start, to > 0 ? &goal : NULL, &limits, rounds, block, size,
+                                     &out->list[out->count].margin);
+            out->count += state == CAGE_OK;
         }
     free(rows);
     free(block);
     return state == CAGE_OK ? HOST_OK : host_fail(error, state == CAGE_ERROR_MEMORY ? HOST_MEMORY : HOST_BAD_INPUT,
                                                   "--passages: %.200s", cage_error_text(state));
-}
-
-static void print_passages(FILE *out, const passage *list, int32_t count, const cage_atlas *atlas, double unit)
-{
-    int32_t i;
-
-    (void)fprintf(out, "\nPassages: two outer classes join when every radius shrinks by (not by the first, by the second)\n");
-    for (i = 0; i < count; i++) {
-        const cage_margin *margin = &list[i].margin;
-        host_pose narrow;
-        char to[16] = "the outside";
-
-        if (list[i].to > 0)
-            (void)snprintf(to, sizeof to, "%ld", (long)list[i].to);
-        (void)fprintf(out, "  %5ld and %-11s  %.6g, %.6g", (long)list[i].from, to, margin->closed * unit, margin->open * unit);
-        if (margin->known) {
-            host_from_grid(&margin->narrow, margin->pivot, atlas->dim, unit, &narrow);
-            (void)fprintf(out, "  at ");
-            host_print_pose(out, &narrow);
-        }
-        (void)fprintf(out, "\n");
-    }
-}
-
-int host_print_passages(FILE *out, const cage_scene *scene, const host_built *made, double unit, int32_t rounds,
-                        host_error *error)
-{
-    passage list[MOST_PASSAGES];
-    int32_t count;
-    int code = find_passages(scene, made, unit, rounds, list, &count, error);
-
-    if (code == HOST_OK)
-        print_passages(out, list, count, &made->atlas, unit);
-    return code;
 }

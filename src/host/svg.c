@@ -79,23 +79,27 @@ static void write_head(FILE *out, const host_answer *answer, double height)
 {
     const cage_result *result = answer->result;
     const host_pose *start = &answer->query->start;
+    const char *name = answer->name != NULL ? answer->name : cage_verdict_text(result->verdict);
+    const char *meaning = answer->name != NULL ? answer->title : title(result);
 
     (void)fprintf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
                        "width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" font-family=\"sans-serif\">\n",
                   WIDTH, height, WIDTH, height);
-    (void)fprintf(out, "<title>%s: %s</title>\n", cage_verdict_text(result->verdict), title(result));
+    (void)fprintf(out, "<title>%s: %s</title>\n", name, meaning);
     (void)fprintf(out, "<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n");
     (void)fprintf(out, "<text x=\"%.0f\" y=\"30\" font-size=\"20\" fill=\"#1c2733\">"
                        "<tspan font-weight=\"bold\">%s</tspan>: %s</text>\n",
-                  MARGIN, cage_verdict_text(result->verdict), title(result));
+                  MARGIN, name, meaning);
     (void)fprintf(out, "<text x=\"%.0f\" y=\"50\" font-size=\"12\" fill=\"#66707c\">", MARGIN);
-    (void)fprintf(out, "%ld object balls, %ld obstacle balls; start %.6g,%.6g", (long)answer->query->object.count,
-                  (long)answer->query->obstacles.count, start->x[0], start->x[1]);
+    (void)fprintf(out, "%ld object balls, %ld obstacle balls; %s %.6g,%.6g", (long)answer->query->object.count,
+                  (long)answer->query->obstacles.count, answer->name != NULL ? "the object at" : "start", start->x[0], start->x[1]);
     if (start->dim == 2)
         (void)fprintf(out, ",%.6g", start->degrees);
     else
         (void)fprintf(out, ",%.6g,%.6g,%.6g,%.6g,%.6g", start->x[2], start->q[0], start->q[1], start->q[2], start->q[3]);
-    (void)fprintf(out, "; %ld slices, %.3f s</text>\n", (long)(result->slices[0] + result->slices[1]), answer->seconds);
+    if (answer->name == NULL)
+        (void)fprintf(out, "; %ld slices, %.3f s", (long)(result->slices[0] + result->slices[1]), answer->seconds);
+    (void)fprintf(out, "</text>\n");
 }
 
 /* A sample with its name; returns where the next one goes. A width of about 6.3 pixels a letter. */

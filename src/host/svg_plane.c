@@ -139,12 +139,12 @@ static void write_legend(FILE *out, const svg_canvas *canvas, const host_answer 
 
     x = svg_legend(out, x, y, "<circle cx=\"9\" r=\"7\" fill=\"#7d8590\"/>", "obstacles");
     x = svg_legend(out, x, y, "<circle cx=\"9\" r=\"7\" fill=\"#6ea2ea\" stroke=\"#1f57b0\"/>"
-                              "<circle cx=\"9\" r=\"2.5\" fill=\"#1c2733\"/>", "start and pivot");
+                              "<circle cx=\"9\" r=\"2.5\" fill=\"#1c2733\"/>", answer->name != NULL ? "a pose of it, and the pivot" : "start and pivot");
     if (answer->query->has_goal)
         x = svg_legend(out, x, y, "<circle cx=\"9\" r=\"7\" fill=\"#f7b267\" stroke=\"#c25e10\"/>", "goal");
     if (region)
         (void)svg_legend(out, x, y, "<rect x=\"1\" y=\"-7\" width=\"16\" height=\"14\" fill=\"#a9dca0\"/>",
-                         "the pivot never leaves this");
+                         answer->name != NULL ? "where the pivot is" : "the pivot never leaves this");
     else if (stuck)
         (void)svg_legend(out, x, y, "", "(no memory to draw the region)");
     if (result->path_count > 0)

@@ -3,18 +3,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "picture.h"
 #include "svg.h"
 
 #define ACROSS 200 /* mask points along the longer side, about */
 #define FEW 24     /* a region that spans fewer points than this is looked at again, closer */
 
-typedef struct window {
-    int32_t origin[3], pitch, count[3]; /* as cage_prove_region takes them */
-    uint8_t *mask;
-} window;
-
 /* The mask over a box of the plane, in grid units; 0, or negative where there is no memory. */
-static int look(window *seen, const host_answer *answer, double left, double right, double bottom, double top)
+static int look(picture_cloud *seen, const host_answer *answer, double left, double right, double bottom, double top)
 {
     double limit = CAGE_REACH_2D - 1;
     size_t points;
@@ -38,13 +34,13 @@ static int look(window *seen, const host_answer *answer, double left, double rig
     return cage_prove_region(answer->proof, seen->origin, seen->pitch, seen->count, seen->mask) < 0 ? -1 : 0;
 }
 
-static int marked(const window *seen, int32_t i, int32_t j)
+static int marked(const picture_cloud *seen, int32_t i, int32_t j)
 {
     return seen->mask[(size_t)j * (size_t)seen->count[0] + (size_t)i] != 0;
 }
 
 /* The box around the marked points, one step larger on every side. */
-static svg_box marked_box(const window *seen)
+static svg_box marked_box(const picture_cloud *seen)
 {
     svg_box box = { 0, 0, 0, 0, 1 };
     int32_t i, j;
@@ -58,7 +54,7 @@ static svg_box marked_box(const window *seen)
 }
 
 /* The mask over the view; where the region is small there, over the region. */
-static int look_twice(window *seen, const svg_canvas *canvas, const host_answer *answer)
+static int look_twice(picture_cloud *seen, const svg_canvas *canvas, const host_answer *answer)
 {
     const svg_box *view = &canvas->view;
     double unit = answer->grid->unit, at[3];
@@ -77,7 +73,7 @@ static int look_twice(window *seen, const svg_canvas *canvas, const host_answer 
 }
 
 /* One rectangle for each run of marked points in a row. */
-static void write_runs(FILE *out, const svg_canvas *canvas, const window *seen, double unit)
+static void write_runs(FILE *out, const svg_canvas *canvas, const picture_cloud *seen, double unit)
 {
     double step = seen->pitch * unit * canvas->scale;
     int32_t i, j, begin;
@@ -99,9 +95,13 @@ static void write_runs(FILE *out, const svg_canvas *canvas, const window *seen, 
 
 int svg_region(FILE *out, const svg_canvas *canvas, const host_answer *answer)
 {
-    window seen;
+    picture_cloud seen;
     int done;
 
+    if (answer->cloud != NULL) {
+        write_runs(out, canvas, answer->cloud, answer->grid->unit);
+        return 1;
+    }
     memset(&seen, 0, sizeof seen);
     done = look_twice(&seen, canvas, answer) == 0;
     if (done)
