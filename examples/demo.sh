@@ -103,7 +103,7 @@ for radius in 4 10 15; do
     line=$(printf 'R = %-4s' $radius) total=0
     for level in 2 3 4 5; do
         "$command" atlas --object "$examples/walls/plus.xyzr" --obstacles "$examples/walls/walls_R$radius.xyzr" --side inner \
-            --level $level -o "$folder/walls_R$radius.atlas" --json >"$folder/walls_R$radius.json" || failed=$((failed + 1))
+            --level $level --volumes 0 -o "$folder/walls_R$radius.atlas" --json >"$folder/walls_R$radius.json" || failed=$((failed + 1))
         large=$(awk -F'"cells": ' '/"cells":/ { n = $2 + 0; if (!all) all = n; else if (2 * n >= all) large++ } END { print large }' \
             "$folder/walls_R$radius.json")
         total=$(echo "$total $(value "$folder/walls_R$radius.json" seconds)" | awk '{ print $1 + $2 }')
