@@ -32,7 +32,7 @@ build/pic/%.o: src/%.c $(HEADERS) Makefile
 
 build/host/%.o: src/host/%.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
-	$(CC) -std=c99 -D_POSIX_C_SOURCE=200809L $(CFLAGS) $(WARN) -Iinclude -c $< -o $@
+	$(CC) -std=c99 -D_XOPEN_SOURCE=700 $(CFLAGS) $(WARN) -Iinclude -c $< -o $@
 
 build/libcage.a: $(CORE_O)
 	rm -f $@

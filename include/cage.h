@@ -206,8 +206,9 @@ typedef struct cage_margin {
                          overlap most (x is where the pivot is) */
 } cage_margin;
 
-/* Find it with so many proofs by bisection, and as many as the first bounds take. The number that ranks grasps: how tight a cage
- * is. All memory is scratch. Errors of cage_prove_begin and cage_prove_run; then *out is not written. */
+/* Find it with so many proofs by bisection, as many as the first bounds take, and one for `narrow`. The number that ranks grasps: how tight a cage
+ * is. All memory is scratch. Errors of cage_prove_begin and cage_prove_run; then *out is not written. Radii shrink ball by ball: where
+ * the inner and the outer balls of a shape differ much in size, the margin is one of these balls, not of the shape. */
 int32_t cage_margin_find(const cage_scene *scene, const cage_pose *start, const cage_pose *goal, const cage_limits *limits,
                          int32_t rounds, void *memory, size_t bytes, cage_margin *out);
 
@@ -234,7 +235,7 @@ int32_t cage_path_check(const cage_scene *scene, const cage_pose *start, const c
 
 typedef struct cage_plan {
     int32_t side;      /* CAGE_SIDE_...: with INNER it proves separation only, with OUTER connection only */
-    int32_t level;     /* of all cells to begin with: 0 to CAGE_LEVEL_MAX, or -1: chosen from the balls */
+    int32_t level;     /* of all cells to begin with: 0 to 14, in space to 7 (2^24 cells), or -1: chosen from the balls */
     int32_t max_cells; /* 0: that is all; else, with both sides, cells are cut until no more than that would be made: those first
                           where the sides disagree on what is connected, of these the coarsest */
     int32_t note[2];   /* the caller's: comes back in cage_atlas */
@@ -327,8 +328,9 @@ int32_t cage_atlas_open(cage_atlas *atlas, const void *bytes, size_t size);
 
 /* What is proved about the start (goal null), or start and goal, user's frame: a verdict, exact on the borders of cells as
  * well, or an error. What cage_prove_begin with any limits answers is never another one, but one of both may be UNDEFINED.
- * Reads as a rule a few hundred words of the atlas, 20 000 at most (and the balls, where neither side tells whether they
- * overlap), and takes less than 2 KB of stack. */
+ * Reads as a rule a few hundred words of the atlas; at most 7000 for each pose, side and cell that holds its rotation, of which there
+ * are 2 at most in the plane and 8 in space (and the balls, where neither side tells whether they overlap). Optimised for size or
+ * speed it takes less than 2 KB of stack. */
 int32_t cage_atlas_ask(const cage_atlas *atlas, const cage_pose *start, const cage_pose *goal);
 
 /* The class of a pose on one side, or CAGE_NO_CLASS where balls cover it: on the inner side it then collides. */

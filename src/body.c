@@ -140,7 +140,7 @@ int32_t cage_scene_check(const cage_scene *scene)
         int32_t objects, obstacles;
         shape_balls(&scene->object, sign, &objects);
         shape_balls(&scene->obstacles, sign, &obstacles);
-        if ((int64_t)objects * obstacles > 1 << 28)
+        if ((int64_t)objects * obstacles > CAGE_PAIRS_MAX)
             return CAGE_ERROR_RANGE;
     }
     return CAGE_OK;

@@ -7,6 +7,9 @@
 
 #include <stdbool.h>
 
+/* Collision balls of one side of a slice, at most. */
+enum { CAGE_PAIRS_MAX = 1 << 28 };
+
 /* One side of a scene: the object's balls relative to the pivot. */
 struct cage_side {
     const cage_ball *object; /* objects balls, centres relative to the pivot */

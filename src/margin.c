@@ -18,6 +18,8 @@ struct trial {
     cage_ball *ball[4]; /* the object's inner and outer balls, the obstacles', of another size */
     unsigned char *memory;
     size_t bytes;
+    bool last; /* look for the narrow place too */
+    bool found; /* `open` was proved */
     cage_margin result;
 };
 
@@ -83,20 +85,37 @@ static int64_t length_of(const cage_pose *from, const cage_pose *to)
     return (int64_t)cage_u128_root(square);
 }
 
-/* The place on the path's poses and straight legs where the balls as given come closest, or overlap most, as finely as PARTS of
- * a leg. Moved by some length, the clearance changes by no more than that, so wide places are passed quickly. */
+/* How far the outer obstacles reach along an axis: from 0 to 2^29. */
+static int64_t extent(const cage_scene *scene)
+{
+    int64_t most = 0;
+    for (int32_t j = 0; j < scene->obstacles.outer_count; j++) {
+        const cage_ball *a = &scene->obstacles.outer[0], *b = &scene->obstacles.outer[j];
+        const int64_t apart[3] = {(int64_t)b->x - a->x, (int64_t)b->y - a->y, (int64_t)b->z - a->z};
+        for (int32_t k = 0; k < 3; k++) {
+            int64_t far = (apart[k] < 0 ? -apart[k] : apart[k]) + b->r;
+            most = far > most ? far : most;
+        }
+    }
+    return most;
+}
+
+/* The place on the path's poses and straight legs where the balls as given come closest, or overlap most, as finely as 1 / PARTS
+ * of the scene. Moved by some length, the clearance changes by no more than that, so wide places are passed quickly. */
 static void find_narrow(struct trial *trial, const cage_result *proof)
 {
-    enum { PARTS = 1024 };
+    enum { PARTS = 2048 };
     cage_margin *result = &trial->result;
     int32_t least = INT32_MAX;
+    const int64_t step = 1 + extent(trial->scene) / PARTS;
     for (int32_t n = 0; n < proof->path_count; n++) {
         const cage_pose *from = &proof->path[n], *to = n + 1 < proof->path_count ? from + 1 : from;
         int64_t length = length_of(from, to), part = 0;
-        while (part == 0 || (part < PARTS && length > 1)) { /* a turn is looked at where it begins */
+        while (part == 0 || (part < length && length > 1)) { /* a turn is looked at where it begins */
             cage_pose pose = *from;
-            for (int32_t k = 0; k < 3; k++)
-                pose.x[k] += (int32_t)(((int64_t)to->x[k] - from->x[k]) * part / PARTS);
+            for (int32_t k = 0; k < 3; k++) /* between the two: < 2^31 */
+                pose.x[k] += (int32_t)cage_i128_nearest(cage_i128_mul((int64_t)to->x[k] - from->x[k], part), cage_i128_of(length),
+                                                        INT64_MAX);
             int32_t gap = clearance(trial->scene, proof->pivot, &pose);
             if (gap < least) {
                 least = gap;
@@ -104,7 +123,7 @@ static void find_narrow(struct trial *trial, const cage_result *proof)
                 for (int32_t k = 0; k < 3; k++)
                     result->pivot[k] = proof->pivot[k];
             }
-            part += 1 + ((int64_t)gap - least) * PARTS / length; /* < 2^33 2^10 */
+            part += gap - least > step ? (int64_t)gap - least : step;
         }
     }
     result->known = least < INT32_MAX;
@@ -119,6 +138,8 @@ static int32_t ask(struct trial *trial, int32_t by)
     int32_t state = cage_prove_begin(&proof, &scene, trial->start, trial->goal, trial->limits, trial->memory, trial->bytes);
     if (state == CAGE_OK)
         state = cage_prove_run(proof, INT64_MAX);
+    if (state == CAGE_ERROR_RANGE && by > 0)
+        return UNKNOWN; /* with fewer balls the object's pivot is elsewhere, and so is that of start or goal */
     if (state < 0)
         return state;
     const cage_result *result = cage_prove_result(proof);
@@ -126,7 +147,9 @@ static int32_t ask(struct trial *trial, int32_t by)
     switch (result->verdict) {
     case CAGE_FREE:
     case CAGE_CONNECTED:
-        find_narrow(trial, result);
+        trial->found = true;
+        if (trial->last)
+            find_narrow(trial, result);
         return OPEN;
     case CAGE_CAGED:
     case CAGE_DISCONNECTED:
@@ -174,6 +197,32 @@ static int32_t bisect(struct trial *trial, int32_t rounds)
     return CAGE_OK;
 }
 
+/* The most that all balls may grow for the scene to fit; it fits without. */
+static int32_t room_to_grow(const struct trial *trial)
+{
+    int32_t fits = 0, bit = 1 << 28;
+    for (; bit > 0; bit /= 2) {
+        cage_scene scene;
+        make_scene(trial, -fits - bit, &scene);
+        fits += cage_scene_check(&scene) == CAGE_OK ? bit : 0;
+    }
+    return fits;
+}
+
+/* Ask with larger and larger balls until it is closed, and leave the bounds between which that happens. */
+static int32_t grow(struct trial *trial, int32_t answer)
+{
+    const int32_t most = room_to_grow(trial);
+    cage_margin *result = &trial->result;
+    for (int32_t by = 1; answer != CLOSED && answer >= 0 && -result->closed < most; by *= 2) { /* by < 2^29 */
+        int32_t next = by < most ? by : most;
+        answer = ask(trial, -next);
+        result->closed = -next;
+        result->open = answer == OPEN ? -next : result->open;
+    }
+    return answer;
+}
+
 int32_t cage_margin_find(const cage_scene *scene, const cage_pose *start, const cage_pose *goal, const cage_limits *limits,
                          int32_t rounds, void *memory, size_t bytes, cage_margin *out)
 {
@@ -184,7 +233,7 @@ int32_t cage_margin_find(const cage_scene *scene, const cage_pose *start, const 
         return error;
     struct cage_arena arena;
     const cage_margin nothing = {0, 0, 0, 0, 0, {0, 0, 0}, {{0, 0, 0}, {1, 0, 0, 0}}};
-    struct trial trial = {scene, start, goal, limits, {NULL, NULL, NULL, NULL}, NULL, 0, nothing};
+    struct trial trial = {scene, start, goal, limits, {NULL, NULL, NULL, NULL}, NULL, 0, false, false, nothing};
     const int32_t count[4] = {scene->object.inner_count, scene->object.outer_count, scene->obstacles.inner_count,
                               scene->obstacles.outer_count};
     cage_arena_init(&arena, memory, bytes);
@@ -200,17 +249,15 @@ int32_t cage_margin_find(const cage_scene *scene, const cage_pose *start, const 
         return answer;
     /* With no object ball left everything is open. Growing, the start itself collides in the end. */
     trial.result.open = answer == OPEN ? 0 : most;
-    trial.result.closed = answer == CLOSED ? 0 : -1;
-    while (answer != CLOSED && (answer = ask(&trial, trial.result.closed)) != CLOSED) {
-        if (answer == CAGE_ERROR_RANGE || trial.result.closed < -(1 << 28))
-            break; /* it cannot grow on this grid, or nothing grows: closed is not known to be */
-        if (answer < 0)
-            return answer;
-        trial.result.open = answer == OPEN ? trial.result.closed : trial.result.open;
-        trial.result.closed *= 2;
-    }
+    answer = grow(&trial, answer);
+    if (answer < 0)
+        return answer;
     error = answer == CLOSED ? bisect(&trial, rounds) : CAGE_OK;
     trial.result.bounded = answer == CLOSED;
+    trial.last = true;
+    if (error == CAGE_OK && trial.found)
+        error = ask(&trial, trial.result.open);
+    error = error > 0 ? CAGE_OK : error;
     if (error == CAGE_OK)
         *out = trial.result;
     return error;

@@ -1,7 +1,7 @@
 /* read: the words of an atlas, wherever they lie and whatever they are; opening it, which checks them. */
 #include "read.h"
+#include "body.h"
 #include "chart.h"
-#include "predicate.h"
 
 int32_t cage_read_length(const cage_atlas *atlas, uint32_t at)
 {
@@ -105,6 +105,9 @@ int32_t cage_atlas_open(cage_atlas *atlas, const void *bytes, size_t size)
     for (int32_t set = CAGE_ATLAS_OBJECT; set <= CAGE_ATLAS_OBSTACLE; set += 2)
         if (!fits(&made, cage_read_word(&made, (uint32_t)set), cage_read_word(&made, (uint32_t)set + 1), (uint32_t)made.dim + 1))
             return CAGE_ERROR_ATLAS;
+    if ((uint64_t)cage_read_word(&made, CAGE_ATLAS_OBJECT + 1) * cage_read_word(&made, CAGE_ATLAS_OBSTACLE + 1) >
+        CAGE_PAIRS_MAX)
+        return CAGE_ERROR_ATLAS;
     *atlas = made;
     return CAGE_OK;
 }

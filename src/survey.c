@@ -55,7 +55,8 @@ size_t cage_survey_size(const cage_scene *scene, const cage_plan *plan)
         return 0;
     limits.side = CAGE_SIDE_INNER; /* one search */
     size_t one = cage_prove_size(scene, &limits), cells = (size_t)limits.max_cells + CAGE_CELL_ROOT;
-    return one == 0 ? 0 : sizeof(struct cage_survey) + 4 * one + 2 * CAGE_SIDES * cells * sizeof(struct cage_sheet);
+    size_t balls = (size_t)scene->obstacles.inner_count * sizeof(cage_ball);
+    return one == 0 ? 0 : sizeof(struct cage_survey) + 4 * one + 2 * CAGE_SIDES * cells * sizeof(struct cage_sheet) + 4 * balls;
 }
 
 int32_t cage_survey_begin(cage_survey **survey, const cage_scene *scene, const cage_plan *plan, void *memory, size_t bytes)

@@ -491,7 +491,7 @@ for scene in fence fence_gap; do
     case="and nothing is on standard output"
     holds [ ! -s "$folder/out" ]
     while [ "$code" -eq 3 ] && [ "$rounds" -lt 40 ]; do
-        more=$(sed -n 's/^cage: memory: .* needed (--memory \([0-9]*\))$/\1/p' "$folder/err")
+        more=$(sed -n 's/^cage: memory: .*; try --memory \([0-9]*\)$/\1/p' "$folder/err")
         if [ "${more:-0}" -le "$bytes" ]; then break; fi
         bytes=$more
         rounds=$((rounds + 1))
@@ -840,7 +840,7 @@ atlas "in as little memory as will do" bar fence --level 4 --quiet --memory 3M
 holds cmp -s "$folder/atlas" "$folder/first"
 atlas "too little memory" bar fence --level 4 --memory 100K
 holds [ "$code" -eq 3 ]
-holds grep -q 'at least [0-9]* are needed' "$folder/err"
+holds grep -q 'try --memory [0-9]' "$folder/err"
 walls=$(dirname "$0")/../examples/walls
 cp "$walls/plus.xyzr" "$walls/walls_R4.xyzr" "$folder/" || exit 1
 atlas "an atlas that takes a while" plus.xyzr walls_R4.xyzr --level 9 --threads 1 --quiet
@@ -871,6 +871,58 @@ atlas "not from facts of something else" plus.xyzr walls_R4.xyzr --level 3
 holds [ "$code" -eq 0 ]
 holds grep -q '^cage: warning: .*/atlas.facts is of another scene' "$folder/err"
 rm -f "$folder/atlas.facts"
+atlas "where a link leads" bar fence --level 2 --quiet
+cp "$folder/atlas" "$folder/first"
+mkdir "$folder/far"
+echo nothing >"$folder/far/end"
+ln -s far/end "$folder/pointer"
+ln -s far/nowhere "$folder/dangling"
+call atlas --object "$folder/bar" --obstacles "$folder/fence" --level 2 --quiet -o "$folder/pointer"
+holds cmp -s "$folder/far/end" "$folder/first"
+holds [ -L "$folder/pointer" ]
+call atlas --object "$folder/bar" --obstacles "$folder/fence" --level 2 --memory 10 --quiet -o "$folder/dangling"
+holds [ "$code" -eq 3 ]
+holds [ -L "$folder/dangling" ]
+holds [ ! -e "$folder/far/nowhere" ]
+case="into a pipe"
+mkfifo "$folder/pipe"
+cat "$folder/pipe" >"$folder/piped" &
+call atlas --object "$folder/bar" --obstacles "$folder/fence" --level 2 --quiet -o "$folder/pipe"
+wait
+holds cmp -s "$folder/piped" "$folder/first"
+holds [ -p "$folder/pipe" ]
+case="from a pipe"
+cat "$folder/first" | "$command" query /dev/stdin --at 0,0,0 >"$folder/out" 2>"$folder/err"
+holds grep -q CAGED "$folder/out"
+echo mine >"$folder/atlas.part"
+atlas "other files stay as they are" bar fence --level 2 --quiet
+holds grep -qx mine "$folder/atlas.part"
+atlas "not over its own input" bar fence --level 2 -o "$folder/bar"
+refused '-o is given twice'
+call atlas --object "$folder/bar" --obstacles "$folder/fence" -o "$folder/fence"
+refused '-o: .*/fence is already used'
+call atlas --object "$folder/bar" --obstacles "$folder/fence" -o "$folder/both" --c-header "$folder/both"
+refused '--c-header: .*/both is already used'
+atlas "quiet, with passages too" bar fence --level 2 --quiet --passages 1
+holds [ "$code" -eq 0 ]
+holds [ ! -s "$folder/out" ]
+case="a zero byte among poses"
+printf '0,0,0\0junk' | "$command" query "$folder/atlas" >"$folder/out" 2>"$folder/err"
+code=$?
+refused 'standard input:1: a byte that is zero'
+case="poses that cannot be read"
+"$command" query "$folder/atlas" <"$folder" >"$folder/out" 2>"$folder/err"
+code=$?
+refused 'standard input cannot be read'
+case="a long comment among poses"
+awk 'BEGIN { printf "#"; for (i = 0; i < 5000; i++) printf "x"; print "\n0,0,30" }' | "$command" query "$folder/atlas" >"$folder/out" 2>"$folder/err"
+holds grep -q CAGED "$folder/out"
+atlas "more cells than the budget" bar fence --level 4 --budget 61
+refused '--budget: down to level 4 there are 62 cells'
+atlas "too fine in space" ball crate --level 8
+refused "--level: '8' is not a whole number from 0 to 7"
+prove "a margin that is no power of two" disc fence 9,0,0 --unit 0.01 --margin 12
+holds grep -q '^Margin  -' "$folder/out"
 atlas "no budget without both sides" bar fence --side inner --budget 100
 refused '--budget: .*--side must be both'
 atlas "no such level" bar fence --level 15

@@ -917,6 +917,42 @@ START_TEST(blocks_and_portions)
 }
 END_TEST
 
+/* Many obstacles and next to no object: the block of that size is enough to begin, at any alignment. */
+START_TEST(size_is_enough)
+{
+    enum { MANY = 17000 };
+    static cage_ball ball[MANY];
+    for (int32_t i = 0; i < MANY; i++) {
+        const cage_ball made = {20 * (i % 130), 20 * (i / 130), 0, 1};
+        ball[i] = made;
+    }
+    for (int32_t objects = 0; objects <= 2; objects++)
+        for (int32_t dim = 2; dim <= 3; dim++) {
+            const cage_scene view = {{ball, ball, objects / 2, (objects + 1) / 2}, {ball, ball, MANY, objects == 1 ? 5 : MANY}, dim};
+            cage_plan plan;
+            cage_survey *survey;
+            cage_plan_default(&plan);
+            size_t size = cage_survey_size(&view, &plan);
+            for (size_t offset = 0; offset < 8; offset++)
+                ck_assert_int_eq(cage_survey_begin(&survey, &view, &plan, block + offset, size), CAGE_OK);
+        }
+    /* Bytes that say that all of these are the object too would make one question take for ever. */
+    const cage_scene view = {{ball, ball, 1, 1}, {ball, ball, MANY, MANY}, 2};
+    cage_plan plan = {CAGE_SIDE_INNER, 0, 0, {0, 0}};
+    struct made m;
+    cage_atlas atlas;
+    make(&view, &plan, &m);
+    sealed_put(m.byte, CAGE_ATLAS_OBJECT, word(&m, CAGE_ATLAS_OBSTACLE));
+    sealed_put(m.byte, CAGE_ATLAS_OBJECT + 1, MANY);
+    sealed_sum(m.byte, m.size);
+    ck_assert_int_eq(cage_atlas_open(&atlas, m.byte, m.size), CAGE_ERROR_ATLAS);
+    sealed_put(m.byte, CAGE_ATLAS_OBJECT + 1, 2);
+    sealed_sum(m.byte, m.size);
+    ck_assert_int_eq(cage_atlas_open(&atlas, m.byte, m.size), CAGE_OK);
+    drop(&m);
+}
+END_TEST
+
 /* A damaged copy, in a block of its own so that a read beyond is seen. */
 static int32_t open_copy(const unsigned char *byte, size_t size)
 {
@@ -1170,6 +1206,7 @@ int main(void)
     tcase_add_test(scenes, space_scenes);
     tcase_add_test(scenes, cut_cells);
     tcase_add_loop_test(bytes, blocks_and_portions, 0, 2);
+    tcase_add_test(bytes, size_is_enough);
     tcase_add_test(bytes, the_sum);
     tcase_add_test(bytes, any_address);
     tcase_add_test(bytes, wrong_questions);

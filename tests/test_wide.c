@@ -177,8 +177,9 @@ START_TEST(extreme_pairs)
 {
     numbers_init();
     uint64_t state = 2;
+    int step = WORDS * WORDS / test_rounds(WORDS * WORDS); /* all pairs, or in a hurry some of each number */
     for (int i = 0; i < WORDS * WORDS; i++)
-        for (int j = 0; j < WORDS * WORDS; j++) {
+        for (int j = i % step; j < WORDS * WORDS; j += step) {
             /* The upper halves only matter to 256-bit sums: take them from the same extremes. */
             words a = {{word[i % WORDS], word[i / WORDS], word[random_next(&state) % WORDS], word[j % WORDS]}};
             words b = {{word[j % WORDS], word[j / WORDS], word[random_next(&state) % WORDS], word[i % WORDS]}};

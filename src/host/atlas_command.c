@@ -7,6 +7,7 @@
 #include "threads.h"
 
 #define MOST_CELLS (1 << 24)
+#define FINEST_3D 7 /* with so many */
 #define HALVINGS_2D 7 /* of boxes, to bound volumes */
 #define HALVINGS_3D 4
 
@@ -52,12 +53,12 @@ void host_atlas_help(FILE *out)
         "A build that takes longer keeps what it has found out in FILE.facts, and does so when it is interrupted: the same\n"
         "command then goes on from there, to the same atlas, and removes it.\n"
         "\n"
-        "exit status: 0, 2 for bad input, 3 when memory was too small (says how much was needed), 130 when interrupted.\n"
+        "exit status: 0, 2 for bad input, 3 when memory was too small (says how much to try), 130 when interrupted.\n"
         "\n"
         "example:\n"
         "  cage atlas --object examples/walls/plus.xyzr --obstacles examples/walls/walls_R4.xyzr -o walls.atlas\n"
         "  cage query walls.atlas --at 185,195,45\n",
-        CAGE_LEVEL_MAX_2D, CAGE_LEVEL_MAX_3D, HALVINGS_2D, HALVINGS_3D);
+        CAGE_LEVEL_MAX_2D, FINEST_3D, HALVINGS_2D, HALVINGS_3D);
 }
 
 static int read_options(int argc, char **argv, options *given, host_error *error)
@@ -85,7 +86,8 @@ static int read_options(int argc, char **argv, options *given, host_error *error
 
 static int read_plan(const options *given, int32_t dim, double unit, cage_plan *plan, host_error *error)
 {
-    const int32_t finest = dim == 2 ? CAGE_LEVEL_MAX_2D : CAGE_LEVEL_MAX_3D;
+    const int32_t finest = dim == 2 ? CAGE_LEVEL_MAX_2D : FINEST_3D, children = dim == 2 ? 2 : 8;
+    int32_t level, least = dim == 2 ? 2 : 4, cells = least;
     int code;
 
     cage_plan_default(plan);
@@ -98,6 +100,10 @@ static int read_plan(const options *given, int32_t dim, double unit, cage_plan *
                           host_parse_integer(given->budget, dim == 2 ? 2 : 4, MOST_CELLS, &plan->max_cells, error));
     if (code == HOST_OK && given->budget != NULL && plan->side != CAGE_SIDE_BOTH)
         return host_fail(error, HOST_BAD_INPUT, "--budget: cells are cut where the two sides disagree; --side must be both");
+    for (level = 0; level < plan->level; level++)
+        least += cells *= children; /* < 2^25 */
+    if (code == HOST_OK && plan->max_cells > 0 && plan->max_cells < least)
+        return host_fail(error, HOST_BAD_INPUT, "--budget: down to level %ld there are %ld cells", (long)plan->level, (long)least);
     return code;
 }
 
@@ -173,6 +179,16 @@ static int run(const options *given, host_query *query, host_grid *grid, host_bu
     if (code == HOST_OK)
         code = host_check_writable("--c-header", given->header, error);
     if (code == HOST_OK)
+        code = host_check_apart("-o", given->output, given->object, error);
+    if (code == HOST_OK)
+        code = host_check_apart("-o", given->output, given->obstacles, error);
+    if (code == HOST_OK)
+        code = host_check_apart("--c-header", given->header, given->output, error);
+    if (code == HOST_OK)
+        code = host_check_apart("--c-header", given->header, given->object, error);
+    if (code == HOST_OK)
+        code = host_check_apart("--c-header", given->header, given->obstacles, error);
+    if (code == HOST_OK)
         code = host_build_atlas(&grid->scene, &plan, given->memory != NULL ? &bytes : NULL, given->output, given->quiet, made, error);
     if (code == HOST_OK)
         code = host_write_whole(given->output, made->bytes, (size_t)made->work.atlas_bytes, error);
@@ -181,14 +197,14 @@ static int run(const options *given, host_query *query, host_grid *grid, host_bu
     if (code == HOST_OK && given->header != NULL)
         code = write_header(given->header, made, error);
     if (code == HOST_OK && told != NULL)
-        code = host_find_passages(&grid->scene, made, grid->unit, rounds, told, error);
+        code = host_find_passages(&grid->scene, made, grid->unit, rounds, given->memory != NULL ? &bytes : NULL, told, error);
     if (code == HOST_OK && (given->svg != NULL || given->ply != NULL))
         code = host_draw_classes(given->svg, given->ply, query, grid, made, error);
     if (halvings < 0)
         halvings = query->dim == 2 ? HALVINGS_2D : HALVINGS_3D;
     if (code == HOST_OK && given->json)
         host_report_atlas_json(stdout, made, grid->unit, halvings, told);
-    else if (code == HOST_OK && (!given->quiet || told != NULL))
+    else if (code == HOST_OK && !given->quiet)
         host_report_atlas(stdout, given->output, made, grid->unit, halvings, told);
     return code;
 }

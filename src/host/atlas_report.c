@@ -94,7 +94,10 @@ static void print_passages(FILE *out, const host_passages *passages, const cage_
 
         if (passage->to > 0)
             (void)snprintf(to, sizeof to, "%ld", (long)passage->to);
-        (void)fprintf(out, "  %5ld and %-11s  %.6g, %.6g", (long)passage->from, to, margin->closed * unit, margin->open * unit);
+        (void)fprintf(out, "  %5ld and %-11s  ", (long)passage->from, to);
+        if (margin->bounded)
+            (void)fprintf(out, "%.6g, ", margin->closed * unit);
+        (void)fprintf(out, "%.6g", margin->open * unit);
         if (margin->known) {
             host_from_grid(&margin->narrow, margin->pivot, atlas->dim, unit, &narrow);
             (void)fprintf(out, "  at ");
@@ -200,8 +203,9 @@ static void json_passages(FILE *out, const host_passages *passages, const cage_a
         const cage_margin *margin = &passage->margin;
         host_pose narrow;
 
-        (void)fprintf(out, "%s\n    {\"from\": %ld, \"to\": %ld, \"closed\": %.17g, \"open\": %.17g, \"narrow\": ", i > 0 ? "," : "",
-                      (long)passage->from, (long)passage->to, margin->closed * unit, margin->open * unit);
+        (void)fprintf(out, "%s\n    {\"from\": %ld, \"to\": %ld, \"closed\": ", i > 0 ? "," : "", (long)passage->from, (long)passage->to);
+        (void)fprintf(out, margin->bounded ? "%.17g" : "null", margin->closed * unit);
+        (void)fprintf(out, ", \"open\": %.17g, \"narrow\": ", margin->open * unit);
         if (margin->known)
             host_from_grid(&margin->narrow, margin->pivot, atlas->dim, unit, &narrow);
         (void)fprintf(out, margin->known ? "[" : "null}");

@@ -106,13 +106,16 @@ int host_agree_on_dimension(host_query *query, host_error *error);
 
 void host_warn_empty(const char *object, const char *obstacles, const host_query *query);
 
-/* Better before long work than after it. Leaves no file where none was. */
+/* Better before long work than after it. Makes no file. */
 int host_check_writable(const char *option, const char *path, host_error *error);
+
+/* Two options (or null) that name one file. */
+int host_check_apart(const char *option, const char *path, const char *other, host_error *error);
 
 /* Reads all of a file; the caller frees *bytes, whatever the outcome. */
 int host_read_whole(const char *path, unsigned char **bytes, size_t *size, host_error *error);
 
-/* Writes all of a file beside its place, and then moves it there: there is never half of it. */
+/* Writes all of a file beside its place, and then moves it there: there is never half of it. What is no file is written to. */
 int host_write_whole(const char *path, const unsigned char *bytes, size_t size, host_error *error);
 
 /* Seconds, from any beginning. */

@@ -1,7 +1,9 @@
 /* options.c: what the subcommands share: options, the dimension of a scene, files, memory and time. */
 #include <errno.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -91,52 +93,104 @@ void host_warn_empty(const char *object, const char *obstacles, const host_query
         (void)fprintf(stderr, "cage: warning: %s has no balls\n", obstacles);
 }
 
-/* Better before a long proof than after it. Leaves no file where none was. */
+/* What is there may be written, and what is not may be made in its folder. */
 int host_check_writable(const char *option, const char *path, host_error *error)
 {
-    const int there = path != NULL && access(path, F_OK) == 0;
-    FILE *file = path != NULL ? fopen(path, "a") : NULL;
+    const char *slash = path != NULL ? strrchr(path, '/') : NULL;
+    struct stat there;
+    char folder[1024] = ".";
+    int fine = path == NULL;
 
-    if (path != NULL && file == NULL)
-        return host_fail(error, HOST_BAD_INPUT, "%s: %.600s cannot be written: %.200s", option, path, strerror(errno));
-    if (file != NULL)
-        (void)fclose(file);
-    if (file != NULL && !there)
-        (void)remove(path);
-    return HOST_OK;
+    if (fine)
+        return HOST_OK;
+    if (slash != NULL)
+        (void)snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
+    if (stat(path, &there) != 0)
+        fine = access(folder, W_OK | X_OK) == 0;
+    else if (S_ISDIR(there.st_mode))
+        errno = EISDIR;
+    else
+        fine = access(path, W_OK) == 0;
+    return fine ? HOST_OK : host_fail(error, HOST_BAD_INPUT, "%s: %.600s cannot be written: %.200s", option, path, strerror(errno));
+}
+
+int host_check_apart(const char *option, const char *path, const char *other, host_error *error)
+{
+    struct stat a, b;
+    int same = path != NULL && other != NULL && strcmp(path, other) == 0;
+
+    if (path != NULL && other != NULL && !same)
+        same = stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino && S_ISREG(a.st_mode);
+    return same ? host_fail(error, HOST_BAD_INPUT, "%s: %.600s is already used by another option", option, path) : HOST_OK;
 }
 
 int host_read_whole(const char *path, unsigned char **bytes, size_t *size, host_error *error)
 {
     FILE *file = fopen(path, "rb");
-    long end = 0;
-    int fine = file != NULL && fseek(file, 0, SEEK_END) == 0 && (end = ftell(file)) >= 0 && fseek(file, 0, SEEK_SET) == 0;
+    size_t room = 0, got = 1;
+    int fine = file != NULL;
 
-    *bytes = fine ? malloc((size_t)end + 1) : NULL;
-    fine = *bytes != NULL && fread(*bytes, 1, (size_t)end, file) == (size_t)end;
-    *size = (size_t)end;
+    *bytes = NULL;
+    *size = 0;
+    while (fine && got > 0) {
+        if (*size == room) {
+            unsigned char *more = realloc(*bytes, room = 2 * room + 65536);
+
+            fine = more != NULL;
+            *bytes = fine ? more : *bytes;
+        }
+        got = fine ? fread(*bytes + *size, 1, room - *size, file) : 0;
+        *size += got;
+    }
+    fine = fine && !ferror(file);
     if (file != NULL)
         (void)fclose(file);
     return fine ? HOST_OK : host_fail(error, HOST_BAD_INPUT, "%.600s cannot be read: %.200s", path, strerror(errno));
 }
 
+static int write_to(FILE *file, const unsigned char *bytes, size_t size)
+{
+    int fine = file != NULL && fwrite(bytes, 1, size, file) == size;
+
+    return file != NULL && fclose(file) == 0 && fine;
+}
+
+/* A file of a name of its own beside that, with the rights that it has or would get; null if that cannot be. */
+static FILE *open_beside(const char *path, char *name, size_t room)
+{
+    const mode_t mask = umask(0);
+    struct stat there;
+    FILE *file = NULL;
+    int handle;
+
+    (void)umask(mask);
+    if (snprintf(name, room, "%s.XXXXXX", path) >= (int)room || (handle = mkstemp(name)) < 0)
+        return NULL;
+    if (fchmod(handle, stat(path, &there) == 0 ? there.st_mode & 07777 : 0666 & ~mask) == 0)
+        file = fdopen(handle, "wb");
+    if (file == NULL) {
+        (void)close(handle);
+        (void)remove(name);
+    }
+    return file;
+}
+
 int host_write_whole(const char *path, const unsigned char *bytes, size_t size, host_error *error)
 {
-    const size_t length = strlen(path);
-    char *beside = malloc(length + 6);
-    FILE *file = NULL;
+    struct stat there;
+    char real[PATH_MAX], name[PATH_MAX + 8];
+    const int regular = stat(path, &there) != 0 || S_ISREG(there.st_mode);
+    const char *target = realpath(path, real) != NULL ? real : path; /* where a link leads */
+    FILE *file = regular ? open_beside(target, name, sizeof name) : NULL;
     int fine;
 
-    if (beside == NULL)
-        return host_fail(error, HOST_MEMORY, "no memory for a file name");
-    memcpy(beside, path, length);
-    memcpy(beside + length, ".part", 6);
-    file = fopen(beside, "wb");
-    fine = file != NULL && fwrite(bytes, 1, size, file) == size;
-    fine = file != NULL && fclose(file) == 0 && fine && rename(beside, path) == 0;
-    if (!fine && file != NULL)
-        (void)remove(beside);
-    free(beside);
+    if (file == NULL) { /* a device, a pipe, or a folder without room for another file */
+        fine = write_to(fopen(path, "wb"), bytes, size);
+    } else {
+        fine = write_to(file, bytes, size) && rename(name, target) == 0;
+        if (!fine)
+            (void)remove(name);
+    }
     return fine ? HOST_OK : host_fail(error, HOST_BAD_INPUT, "%.600s cannot be written: %.200s", path, strerror(errno));
 }
 
@@ -180,8 +234,8 @@ int host_in_block(size_t wanted, const size_t *bytes, host_attempt *attempt, voi
         if (needed <= size)
             needed = (uint64_t)size + 1;
         if (bytes != NULL || size > HOST_LARGEST_BLOCK / 2 || needed > HOST_LARGEST_BLOCK)
-            return host_fail(error, HOST_MEMORY, "memory: %zu bytes were too few; at least %llu are needed (--memory %llu)",
-                             size, (unsigned long long)needed, (unsigned long long)needed);
+            return host_fail(error, HOST_MEMORY, "memory: %zu bytes were too few; try --memory %llu", size,
+                             (unsigned long long)needed);
         free(*block);
         *block = NULL;
         size = needed > 2 * size ? (size_t)needed : 2 * size;

@@ -17,12 +17,12 @@ static int pose_of(const cage_atlas *atlas, int32_t class, double unit, cage_pos
     return host_pose_to_grid(&user, unit, pose) == HOST_OK;
 }
 
-int host_find_passages(const cage_scene *scene, const host_built *made, double unit, int32_t rounds, host_passages *out,
-                       host_error *error)
+int host_find_passages(const cage_scene *scene, const host_built *made, double unit, int32_t rounds, const size_t *bytes,
+                       host_passages *out, host_error *error)
 {
     host_row *rows = host_rows(&made->atlas, CAGE_SIDE_OUTER);
-    size_t size = HOST_FIRST_BLOCK;
-    void *block = host_take_block(&size, HOST_LEAST_BLOCK);
+    size_t size = bytes != NULL ? *bytes : HOST_FIRST_BLOCK;
+    void *block = host_take_block(&size, bytes != NULL ? *bytes + 1 : HOST_LEAST_BLOCK);
     const int32_t classes = made->atlas.classes[1];
     int32_t i, k, state = rows != NULL && block != NULL ? CAGE_OK : CAGE_ERROR_MEMORY;
     cage_limits limits;

@@ -80,7 +80,7 @@ void host_prove_help(FILE *out)
         "cage-prove: \"cage-prove --object ...\" is \"cage prove --object ...\".\n"
         "\n"
         "exit status: 0 for any verdict, 2 for bad input (file:line: what is wrong), 3 when memory was too\n"
-        "small (says how much was needed).\n"
+        "small (says how much to try).\n"
         "\n"
         "example:\n"
         "  cage prove --object examples/walls/plus.xyzr --obstacles examples/walls/walls_R4.xyzr \\\n"

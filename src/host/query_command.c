@@ -1,10 +1,9 @@
 /* query_command.c: "cage query": an atlas and poses in, verdicts out. */
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "host.h"
-
-#define LONGEST_LINE 1024
 
 typedef struct options {
     const char *file, *at, *to;
@@ -130,16 +129,22 @@ static int answer_line(const cage_atlas *atlas, double unit, char *line, long nu
 
 static int answer_all(const cage_atlas *atlas, double unit, int json, host_error *error)
 {
-    char line[LONGEST_LINE];
+    char *line = NULL;
+    size_t room = 0;
+    ssize_t length;
     long number = 0;
     int code = HOST_OK;
 
-    while (code == HOST_OK && fgets(line, sizeof line, stdin) != NULL) {
+    while (code == HOST_OK && (length = getline(&line, &room, stdin)) >= 0) {
         number++;
-        if (strchr(line, '\n') == NULL && !feof(stdin))
-            return host_fail(error, HOST_BAD_INPUT, "standard input:%ld: longer than %d characters", number, LONGEST_LINE - 2);
-        code = answer_line(atlas, unit, line, number, json, error);
+        if (strlen(line) != (size_t)length)
+            code = host_fail(error, HOST_BAD_INPUT, "standard input:%ld: a byte that is zero", number);
+        else
+            code = answer_line(atlas, unit, line, number, json, error);
     }
+    if (code == HOST_OK && (ferror(stdin) || !feof(stdin)))
+        code = host_fail(error, HOST_BAD_INPUT, "standard input cannot be read: %.200s", strerror(errno));
+    free(line);
     return code;
 }
 
