@@ -31,6 +31,13 @@ static void change(uint64_t *state, unsigned char *byte, size_t words)
     }
 }
 
+static void see(void *context, const cage_atlas_box *box)
+{
+    for (int k = 0; k < 3; k++)
+        if (box->low[k] > box->high[k])
+            ++*(long *)context;
+}
+
 static void question(uint64_t *state, const cage_atlas *atlas)
 {
     cage_pose pose[2];
@@ -48,7 +55,14 @@ static void question(uint64_t *state, const cage_atlas *atlas)
     for (int32_t side = CAGE_SIDE_INNER; side <= CAGE_SIDE_OUTER; side++) {
         (void)cage_atlas_locate(atlas, &pose[0], side);
         int32_t count = atlas->classes[side - 1];
-        (void)cage_atlas_class(atlas, side, count > 0 ? (int32_t)(random_next(state) % (uint64_t)count) : 0, &class);
+        int32_t number = count > 0 ? (int32_t)(random_next(state) % (uint64_t)count) : 0, q[4], corner[8][4];
+        int32_t cell = atlas->leaves > 0 ? (int32_t)(random_next(state) % (uint64_t)atlas->leaves) : 0;
+        long turned = 0;
+        (void)cage_atlas_class(atlas, side, number, &class);
+        (void)cage_atlas_cell(atlas, cell, q, corner);
+        (void)cage_atlas_boxes(atlas, side, cell, number, (int32_t)(random_next(state) % 5), see, &turned);
+        if (turned > 0)
+            abort();
     }
 }
 

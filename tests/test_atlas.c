@@ -1066,6 +1066,13 @@ END_TEST
 static bool is_answer(int32_t verdict) { return verdict < 0 || (verdict >= CAGE_UNDEFINED && verdict <= CAGE_IN_COLLISION); }
 
 /* Anything may be said, nothing may go wrong. */
+static void see(void *context, const cage_atlas_box *box)
+{
+    for (int k = 0; k < 3; k++)
+        test_require(box->low[k] <= box->high[k]);
+    ++*(int64_t *)context;
+}
+
 static void ask_anything(const cage_atlas *atlas, uint64_t *state)
 {
     for (int i = 0; i < 12; i++) {
@@ -1086,6 +1093,10 @@ static void ask_anything(const cage_atlas *atlas, uint64_t *state)
             cage_class c;
             int32_t error = cage_atlas_class(atlas, side, i, &c);
             test_require(error == CAGE_OK || error == CAGE_ERROR_ARGUMENT);
+            int32_t cell = (int32_t)test_between(state, 0, atlas->leaves), q[4], corner[8][4];
+            int64_t seen = 0, told = cage_atlas_boxes(atlas, side, cell, i, (int32_t)test_between(state, 0, 4), see, &seen);
+            test_require(told == seen || told == CAGE_ERROR_ARGUMENT || told == CAGE_ERROR_ATLAS);
+            (void)cage_atlas_cell(atlas, cell, q, corner);
         }
 }
 
