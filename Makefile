@@ -16,7 +16,7 @@ PIC_O   = $(CORE:src/%.c=build/pic/%.o)
 HOST_O  = $(HOST:src/host/%.c=build/host/%.o)
 
 .DEFAULT_GOAL = all
-.PHONY: all lib shared demo test soak bench bench-peers install uninstall clean help
+.PHONY: all lib shared demo test check-firmware soak bench bench-peers install uninstall clean help
 
 all: build/cage ## the command build/cage and the static library
 lib: build/libcage.a ## the static library, from freestanding C99
@@ -94,6 +94,10 @@ soak: build/soak build/soak_space build/soak_atlas ## hunt for contradictions an
 	build/soak 1 2000
 	build/soak_space 1 300
 	build/soak_atlas 1 500
+
+check-firmware: ## firmware builds: install toolchains (when it may), build, run in emulators, compare, measure
+	sh tests/firmware/deps.sh
+	sh tests/firmware/check.sh
 
 # ---- benchmarks ------------------------------------------------------------------------------------
 
