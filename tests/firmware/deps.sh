@@ -18,8 +18,8 @@ need cppcheck cppcheck
 need clang-tidy clang-tidy
 need cmake cmake
 need pkg-config pkg-config
-need xmllint libxml2-utils
-need python3 'python3 python3-yaml'
+need python3 python3
+python3 -c 'import yaml' 2>/dev/null || missing="$missing python3-yaml"
 for specs in arm-none-eabi riscv64-unknown-elf; do
     case $missing in *picolibc-$specs*) continue ;; esac
     $specs-gcc --specs=picolibc.specs -E -x c /dev/null >/dev/null 2>&1 || missing="$missing picolibc-$specs"
