@@ -43,7 +43,8 @@ static inline uint64_t counter_now(void)
 #else
     uint32_t high, low, again;
     do
-        __asm__ volatile(".option push\n\t.option arch, +zicsr\n\tcsrr %0, 0xb80\n\tcsrr %1, 0xb00\n\tcsrr %2, 0xb80\n\t.option pop"
+        __asm__ volatile(".option push\n\t.option arch, +zicsr\n\t"
+                         "csrr %0, 0xb80\n\tcsrr %1, 0xb00\n\tcsrr %2, 0xb80\n\t.option pop"
                          : "=r"(high), "=r"(low), "=r"(again));
     while (high != again);
     return (uint64_t)high << 32 | low;

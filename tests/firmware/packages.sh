@@ -60,14 +60,17 @@ zephyr=libcage-zephyr-$version.tar.gz idf=libcage-esp-idf-$version.tar.gz arduin
 pack=libcage.libcage.$version.pack
 passes 'Zephyr module: files' holds "build/packages/$zephyr" CMakeLists.txt Kconfig include/cage.h src/cage.c zephyr/module.yml
 passes 'ESP-IDF component: files' holds "build/packages/$idf" CMakeLists.txt idf_component.yml include/cage.h src/cage.c
-passes 'Arduino and PlatformIO library: files' holds "build/packages/$arduino" library.json library.properties src/cage.c src/cage.h
+passes 'Arduino and PlatformIO library: files' holds "build/packages/$arduino" \
+    library.json library.properties src/cage.c src/cage.h
 passes 'CMSIS-Pack: files' holds "build/packages/$pack" include/cage.h libcage.libcage.pdsc src/cage.c
 
-passes 'Zephyr module: YAML' python3 -c 'import sys, yaml; m = yaml.safe_load(open(sys.argv[1])); assert m["build"]["cmake"] == "."' \
-    "$unpacked/$zephyr/zephyr/module.yml"
-passes 'ESP-IDF component: YAML' python3 -c 'import sys, yaml; assert yaml.safe_load(open(sys.argv[1]))["version"] == sys.argv[2]' \
+passes 'Zephyr module: YAML' python3 -c \
+    'import sys, yaml; assert yaml.safe_load(open(sys.argv[1]))["build"]["cmake"] == "."' "$unpacked/$zephyr/zephyr/module.yml"
+passes 'ESP-IDF component: YAML' python3 -c \
+    'import sys, yaml; assert yaml.safe_load(open(sys.argv[1]))["version"] == sys.argv[2]' \
     "$unpacked/$idf/idf_component.yml" "$version"
-passes 'PlatformIO library: JSON' python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["version"] == sys.argv[2]' \
+passes 'PlatformIO library: JSON' python3 -c \
+    'import json, sys; assert json.load(open(sys.argv[1]))["version"] == sys.argv[2]' \
     "$unpacked/$arduino/library.json" "$version"
 passes 'Arduino library: version' grep -qx "version=$version" "$unpacked/$arduino/library.properties"
 names_in_pack() { # every file that the description names is in the pack
@@ -130,7 +133,8 @@ with_pkg_config() {
     PKG_CONFIG_SYSROOT_DIR=$PWD/$out/root PKG_CONFIG_LIBDIR=$PWD/$out/root/usr/lib/pkgconfig
     export PKG_CONFIG_SYSROOT_DIR PKG_CONFIG_LIBDIR
     [ "$(pkg-config --modversion libcage)" = "$version" ] &&
-        gcc examples/prove_in_c.c -I"$PWD/$out/root/usr/include" $(pkg-config --cflags --libs --static libcage) -static -o "$out/user/static" &&
+        gcc examples/prove_in_c.c -I"$PWD/$out/root/usr/include" $(pkg-config --cflags --libs --static libcage) -static \
+            -o "$out/user/static" &&
         "$out/user/static"
 }
 passes 'pkg-config: build, run' with_pkg_config
