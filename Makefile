@@ -95,7 +95,7 @@ soak: build/soak build/soak_space build/soak_atlas ## hunt for contradictions an
 	build/soak_space 1 300
 	build/soak_atlas 1 500
 
-check-firmware: ## firmware builds: install toolchains (when it may), build, run in emulators, compare, measure
+check-firmware: build/cage ## firmware builds: install toolchains (when it may), build, run in emulators, compare, measure
 	sh tests/firmware/deps.sh
 	sh tests/firmware/check.sh
 
