@@ -213,6 +213,7 @@ int32_t cage_proof_searching(const struct cage_proof *proof)
 
 int32_t cage_proof_step(struct cage_proof *proof)
 {
+    cage_proof_make_room(proof);
     int32_t error = step_phase(proof);
     proof->result.steps++;
     proof->error = error < 0 ? error : CAGE_OK;

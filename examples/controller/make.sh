@@ -1,6 +1,6 @@
 #!/bin/sh
 # Make the supervisor's atlases with build/cage, as C arrays, and its program.
-# usage: sh examples/controller/make.sh OUT [COMPILER AND FLAGS]     at the top of the repository, after `make`; writes OUT/supervisor
+# usage: sh examples/controller/make.sh OUT [COMPILER AND FLAGS]   at the top of the repository, after `make`: OUT/supervisor
 here=examples/controller
 out=$1
 shift
