@@ -83,8 +83,8 @@ static uint64_t work_bytes(const cage_scene *scene)
 }
 
 /* What is left of the block is shared out: a quarter for facts, or little, if it is a small block (half, when all of them are
- * kept); half of all to work in, or as much as that ever takes and an eighth; and what then is left to hold slices, at the expense
- * of which there can be more facts later. */
+ * kept); half of all to work in, or as much as that ever takes and an eighth; and what then is left to hold slices, at the
+ * expense of which there can be more facts later. */
 enum { FACTS_PART = 4, WORK_PART = 2, ALL_FACTS_PART = 2, ALL_WORK_PART = 3, LEAST_WORK_PART = 8, WORK_TIMES = 4 };
 enum { SMALL_BLOCK = 256 << 10, SMALL_FACTS_PART = 16, SMALL_WORK_PART = 9, SPARE_FACTS = 1024 }; /* a 16th, 9 20ths */
 
@@ -155,6 +155,10 @@ static void share_limits(const cage_limits *limits, cage_limits *first, cage_lim
 
 /* The second search has a third of the block. */
 static size_t bytes_of_second(size_t bytes) { return bytes / 3; }
+
+/* CAGE_PROVE_BYTES takes these to be large enough; else an array has -1 entries. */
+enum { HEAD_BYTES = sizeof(struct cage_proof) + 16 * CAGE_ALIGN, CELL_BYTES = sizeof(struct cage_leaf) };
+typedef char cage_prove_bytes_holds[HEAD_BYTES <= 2048 && CELL_BYTES <= 112 ? 1 : -1];
 
 size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits)
 {

@@ -113,6 +113,11 @@ static int32_t prove(const struct entry *e, const cage_scene *scene)
     cage_proof *proof;
     cage_limits_default(&limits, e->dim);
     limits.max_cells = e->dim == 2 ? 1024 : 8192;
+    size_t size = cage_prove_size(scene, &limits), bytes = CAGE_PROVE_BYTES(e->dim, e->objects, e->obstacles, limits.max_cells);
+    if (bytes < size || 10 * bytes > 21 * size) {
+        put("CAGE_PROVE_BYTES is wrong\n");
+        return 1;
+    }
     int32_t state = cage_prove_begin(&proof, scene, &e->start, e->has_goal ? &e->goal : NULL, &limits, block.byte, BLOCK);
     uint64_t before = 0;
     while (state == 0) {
@@ -146,7 +151,34 @@ static int32_t prove(const struct entry *e, const cage_scene *scene)
     put_hash(hash);
     put("\n");
     const cage_pose *goal = e->has_goal ? &e->goal : NULL;
+    if (r->peak_bytes > size) {
+        put("it took more than cage_prove_size\n");
+        return 1;
+    }
     return r->path_count > 0 && cage_path_check(scene, &e->start, goal, r->pivot, r->path, r->path_count) != 1;
+}
+
+/* A part of 5 balls in 40 obstacles, in 64 KiB; where pointers have 64 bits, in half as much again. */
+static int32_t prove_in_little(const struct entry *e)
+{
+    const cage_shape object = {e->object, e->object, e->objects, e->objects};
+    const cage_shape obstacles = {e->obstacle, e->obstacle, e->obstacles, e->obstacles};
+    const cage_scene scene = {object, obstacles, 2};
+    const cage_limits limits = {CAGE_SIDE_INNER, -1, 12, 16};
+    cage_proof *proof;
+    size_t bytes = sizeof(void *) == 4 ? 65536 : 98304;
+    int32_t state = cage_prove_begin(&proof, &scene, &e->start, &e->goal, &limits, block.byte, bytes);
+    while (state == 0)
+        state = cage_prove_run(proof, 1);
+    if (state < 0)
+        return 1;
+    add_result(&all_hash, cage_prove_result(proof));
+    field("in little memory: ", (uint64_t)e->objects);
+    field(" balls in ", (uint64_t)e->obstacles);
+    put(": ");
+    put(cage_verdict_text(cage_prove_result(proof)->verdict));
+    put("\n");
+    return cage_prove_result(proof)->verdict != CAGE_DISCONNECTED;
 }
 
 /* ---- atlases -------------------------------------------------------------------------------------------- */
@@ -230,6 +262,7 @@ int main(void)
         const cage_scene scene = {object, obstacles, e->dim};
         failed += prove(e, &scene);
         failed += e->level >= 0 ? survey(e, &scene) : 0;
+        failed += e->seed == 193 ? prove_in_little(e) : 0;
     }
     field("all: failed ", (uint64_t)failed);
     field(", steps ", all_steps);
