@@ -156,9 +156,9 @@ static void share_limits(const cage_limits *limits, cage_limits *first, cage_lim
 /* The second search has a third of the block. */
 static size_t bytes_of_second(size_t bytes) { return bytes / 3; }
 
-/* CAGE_PROVE_BYTES takes these to be large enough; else an array has -1 entries. */
+/* CAGE_PROVE_BYTES takes these to be large enough; else this divides by 0. */
 enum { HEAD_BYTES = sizeof(struct cage_proof) + 16 * CAGE_ALIGN, CELL_BYTES = sizeof(struct cage_leaf) };
-typedef char cage_prove_bytes_holds[HEAD_BYTES <= 2048 && CELL_BYTES <= 112 ? 1 : -1];
+enum { PROVE_BYTES_HOLDS = 1 / (HEAD_BYTES <= 2048 && CELL_BYTES <= 112 ? 1 : 0) };
 
 size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits)
 {

@@ -12,14 +12,14 @@ add() { # NAME COMMAND
     echo "$1" >"$out/$id.name"
     echo "$2" >"$out/$id.sh"
 }
+add "MISRA rules and recursion" "sh tests/firmware/misra.sh"
+add "the two-file library and its packages" "sh tests/firmware/packages.sh"
 for name in $targets; do
     add "the whole line on $name" "sh tests/firmware/image.sh $name"
 done
 
 add "budgets of size and stack" "sh tests/firmware/gates.sh"
-add "MISRA rules and recursion" "sh tests/firmware/misra.sh"
 add "the controller example" "sh tests/firmware/controller.sh"
-add "the two-file library and its packages" "sh tests/firmware/packages.sh"
 
 ls "$out"/*.sh | xargs -P 2 -I{} sh -c 's=$(date +%s); sh "{}" > "{}.out" 2>&1; echo $? $(($(date +%s) - s)) > "{}.status"'
 

@@ -6,12 +6,10 @@
 target "$1" || exit 1
 out=build/firmware/$1
 rm -rf "$out"
-mkdir -p "$out/core"
-
-for file in src/*.c; do
-    "${PREFIX}gcc" -std=c99 -ffreestanding -Os -ffunction-sections -fdata-sections -Wall -Wextra -pedantic -Werror $FLAGS \
-        -Iinclude -c "$file" -o "$out/core/$(basename "$file" .c).o" || exit 1
-done
+call_graph "$out/core" "$PREFIX" "-Os -ffunction-sections -fdata-sections -Wall -Wextra -pedantic -Werror $FLAGS" || {
+    echo "$1: the core does not compile"
+    exit 1
+}
 "${PREFIX}gcc" -std=c99 -Os -Wall -Wextra $FLAGS $LINK -Iinclude tests/firmware/main.c "$out"/core/*.o -Wl,--gc-sections \
     -o "$out/image" || exit 1
 $RUN "$out/image" >"$out/printed" 2>"$out/errors" </dev/null || {
@@ -21,10 +19,9 @@ $RUN "$out/image" >"$out/printed" 2>"$out/errors" </dev/null || {
 }
 grep -v '^here: ' "$out/printed" | diff tests/firmware/expected.txt - || exit 1
 
-call_graph "$out/graph" "$PREFIX" "-Os $FLAGS" || exit 1
 text=$("${PREFIX}size" "$out"/core/*.o | awk 'NR > 1 { sum += $1 } END { print sum }')
-stack=$(deepest "$out/graph" | sed 's/ .*//')
-ask=$(deepest "$out/graph" cage_atlas_ask | sed 's/ .*//')
+stack=$(deepest "$out/core" | sed 's/ .*//')
+ask=$(deepest "$out/core" cage_atlas_ask | sed 's/ .*//')
 awk -v name="$1" -v text="$text" -v stack="$stack" -v ask="$ask" '
     /^all: / { gsub(",", ""); for (i = 1; i < NF; i++) v[$i] = $(i + 1) }
     /^here: / { gsub(",", ""); arena = $3; worst = $6 }
