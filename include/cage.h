@@ -155,6 +155,15 @@ void cage_limits_default(cage_limits *limits, int32_t dim);
  * ones. 0 if the scene or the limits are not valid. */
 size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits);
 
+/* The same as a constant expression, for a block that is an array: never less than cage_prove_size, and at most 2.1 times that.
+ * For shapes whose inner and outer counts are not more than these, and limits with that many cells. */
+#define CAGE_PROVE_BYTES(dim, objects, obstacles, max_cells)                                                              \
+    ((dim) == 2 ? CAGE_PROVE_BYTES_OF_ONE(objects, 600ul * (objects) * (obstacles), 1ul * (max_cells))                    \
+                : 3 * CAGE_PROVE_BYTES_OF_ONE(objects, 1400ul * (objects) * (obstacles), ((max_cells) + 1ul) / 2))
+#define CAGE_PROVE_BYTES_OF_ONE(objects, work, cells)                                                                     \
+    (2304 + 40ul * (objects) + 112 * (cells) +                                                                            \
+     4 * ((work) / 2 + 16384 > 32768 + 64 * (cells) ? (work) / 2 + 16384 : 32768 + 64 * (cells)))
+
 /* Ask: can the object leave the start (goal null), or get from start to goal? The scene's balls are
  * read until the proof is finished; memory (any alignment) is used until the result was read. Limits null: the default
  * ones. When this fails *proof is not written, so after CAGE_ERROR_MEMORY there is no result to read needed_bytes from:
@@ -162,9 +171,11 @@ size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits);
 int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage_pose *start,
                          const cage_pose *goal, const cage_limits *limits, void *memory, size_t bytes);
 
-/* Do at most that many steps; a step builds one slice, glues one pair of slices, refines one cell, or writes or
- * shortens one leg of a path. 1: finished, 0: more to do, negative: an error (the result keeps its counts, and
- * needed_bytes). The answer does not depend on how the steps are portioned. */
+/* Do at most that many steps; a step builds one slice, glues one pair of slices, refines one cell, or writes or shortens one leg
+ * of a path. With n object balls and m obstacle balls a slice triangulates at most n m balls, and a step 6 n m: two slices that
+ * were dropped and are built again, at worst twice, and their balls together. Beside that a step goes through cells and known
+ * edges, and the last one of a path checks all of it. 1: finished, 0: more to do, negative: an error (the result keeps its
+ * counts, and needed_bytes). The answer does not depend on how the steps are portioned. */
 int32_t cage_prove_run(cage_proof *proof, int64_t steps);
 
 /* Several cores for one proof. run calls task(data, i, w) once for each i in 0..tasks - 1, in any order, all at once

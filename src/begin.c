@@ -82,24 +82,49 @@ static uint64_t work_bytes(const cage_scene *scene)
     return (scene->dim == 2 ? 600 : 1400) * (inner > outer ? inner : outer) + 32768;
 }
 
-/* What is left of the block is shared out: a quarter for facts (half, when all of them are kept); two thirds of the rest to
- * work in, or as much as that ever takes and an eighth; and what then is left to hold slices. */
+/* What is left of the block is shared out: a quarter for facts, or little, if it is a small block (half, when all of them are
+ * kept); half of all to work in, or as much as that ever takes and an eighth; and what then is left to hold slices, at the
+ * expense of which there can be more facts later. */
 enum { FACTS_PART = 4, WORK_PART = 2, ALL_FACTS_PART = 2, ALL_WORK_PART = 3, LEAST_WORK_PART = 8, WORK_TIMES = 4 };
+enum { SMALL_BLOCK = 256 << 10, SMALL_FACTS_PART = 16, SMALL_WORK_PART = 9, SPARE_FACTS = 1024 }; /* a 16th, 9 20ths */
 
 static size_t facts_part(const struct cage_proof *proof) { return proof->all ? ALL_FACTS_PART : FACTS_PART; }
 static size_t work_part(const struct cage_proof *proof) { return proof->all ? ALL_WORK_PART : WORK_PART; }
 
 static void share_out(struct cage_proof *proof)
 {
-    size_t left = proof->arena.size - proof->arena.used, facts = left / facts_part(proof) / CAGE_ALIGN * CAGE_ALIGN;
-    uint64_t most = left / work_part(proof), work = WORK_TIMES * work_bytes(&proof->scene) + left / LEAST_WORK_PART;
+    size_t left = proof->arena.size - proof->arena.used;
+    size_t part = !proof->all && left < SMALL_BLOCK ? SMALL_FACTS_PART : facts_part(proof);
+    size_t facts = left / part / CAGE_ALIGN * CAGE_ALIGN;
+    uint64_t most = part == SMALL_FACTS_PART ? left / 20 * SMALL_WORK_PART : left / work_part(proof);
+    uint64_t work = WORK_TIMES * work_bytes(&proof->scene) + left / LEAST_WORK_PART;
     size_t hold = left - facts - (size_t)(work < most ? work : most);
     hold = hold / CAGE_ALIGN * CAGE_ALIGN;
     unsigned char *at = proof->arena.base + proof->arena.used + facts;
     proof->shared = left;
+    proof->fixed = proof->before = proof->arena.used;
     proof->arena.size = proof->arena.used + facts;
     cage_store_init(&proof->store, at, hold);
     cage_arena_init(&proof->scratch, at + hold, left - facts - hold);
+}
+
+void cage_proof_make_room(struct cage_proof *proof)
+{
+    struct cage_arena *arena = &proof->arena;
+    struct cage_store *store = &proof->store;
+    size_t used = arena->used + (size_t)proof->path_count * sizeof *proof->path, facts = used - proof->fixed;
+    if (used > proof->before && used - proof->before > proof->most)
+        proof->most = used - proof->before;
+    proof->before = used;
+    size_t wanted = 2 * proof->most + SPARE_FACTS, more = facts / 2 > wanted ? facts / 2 : wanted;
+    if (proof->all || arena->size - used >= wanted)
+        return;
+    more = (more < store->size / 4 ? more : store->size / 4) / CAGE_ALIGN * CAGE_ALIGN;
+    cage_store_clear(store);
+    cage_store_init(store, store->base + more, store->size - more);
+    arena->size += more;
+    if (proof->path)
+        proof->path_room += (int32_t)(more / sizeof *proof->path);
 }
 
 /* Enough for one search. */
@@ -130,6 +155,10 @@ static void share_limits(const cage_limits *limits, cage_limits *first, cage_lim
 
 /* The second search has a third of the block. */
 static size_t bytes_of_second(size_t bytes) { return bytes / 3; }
+
+/* CAGE_PROVE_BYTES takes these to be large enough; else this divides by 0. */
+enum { HEAD_BYTES = sizeof(struct cage_proof) + 16 * CAGE_ALIGN, CELL_BYTES = sizeof(struct cage_leaf) };
+enum { PROVE_BYTES_HOLDS = 1 / (HEAD_BYTES <= 2048 && CELL_BYTES <= 112 ? 1 : 0) };
 
 size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits)
 {
@@ -164,7 +193,7 @@ static uint64_t needed_by_one(const struct cage_proof *proof)
     } else if (proof->arena.needed > proof->arena.size) {
         shared = proof->shared + facts_part(proof) * ((uint64_t)(proof->arena.needed - proof->arena.size) + CAGE_ALIGN);
     }
-    return proof->arena.size - proof->shared / facts_part(proof) + (shared < least ? least : shared) + 16 * CAGE_ALIGN;
+    return proof->fixed + (shared < least ? least : shared) + 16 * CAGE_ALIGN;
 }
 
 uint64_t cage_proof_needed(const struct cage_proof *proof)

@@ -25,7 +25,9 @@ struct cage_proof {
     struct cage_arena scratch; /* empty between steps */
     struct cage_store store;
     bool all;                  /* nothing is asked: all cells are wanted, and there is no start */
-    size_t shared;             /* bytes that facts, store and scratch have together */
+    size_t shared;             /* bytes that facts, store and scratch have together, */
+    size_t fixed;              /* and those before them */
+    size_t before, most;       /* where facts and path ended before this step, and the most by which a step moved that */
     struct cage_graph graph;
     struct cage_side side[CAGE_SIDES];
     struct cage_reach reach[CAGE_SIDES];
@@ -72,6 +74,9 @@ bool cage_proof_spares_outer(const struct cage_proof *proof);
 
 /* Add up the results of both searches. */
 void cage_proof_total(struct cage_proof *proof);
+
+/* Between steps: where little is left for facts and path, let them have some of the store's memory, which is emptied. */
+void cage_proof_make_room(struct cage_proof *proof);
 
 /* The block to try next, after CAGE_ERROR_MEMORY. */
 uint64_t cage_proof_needed(const struct cage_proof *proof);
