@@ -89,8 +89,8 @@ static bool may_hold(const struct visitor *v, uint32_t list)
 
 enum { NOTHING, PART, WHOLE };
 
-/* How much of the box belongs to the class: looks at the balls that may meet it, and leaves those that do. Where none does, all of
- * it lies in one component. */
+/* How much of the box belongs to the class: looks at the balls that may meet it, and leaves those that do. Where none does,
+ * all of it lies in one component. */
 static int32_t share_of(const struct visitor *v, struct box_frame *f, const cage_atlas_box *at)
 {
     uint32_t balls = cage_read_word(v->atlas, f->entry) & 65535;
@@ -201,7 +201,8 @@ int64_t cage_atlas_boxes(const cage_atlas *atlas, int32_t side, int32_t cell, in
         return CAGE_ERROR_ARGUMENT;
     uint32_t leaf = cage_read_side(atlas, side == CAGE_SIDE_OUTER, CAGE_SIDE_LEAF) + 2 * (uint32_t)cell;
     struct visitor v = {atlas, cage_read_word(atlas, leaf), cage_read_word(atlas, leaf + 1),
-                        cage_read_side(atlas, side == CAGE_SIDE_OUTER, CAGE_SIDE_CLASS), (uint32_t)class_number, 0, {0, 0, 0}, {0, 0, 0}, visit, context, 0, 0};
+                        cage_read_side(atlas, side == CAGE_SIDE_OUTER, CAGE_SIDE_CLASS), (uint32_t)class_number, 0,
+                        {0, 0, 0}, {0, 0, 0}, visit, context, 0, 0};
     int32_t bits = (int32_t)(cage_read_word(atlas, v.chart + CAGE_CHART_BITS) & 31), depth = 0;
     uint32_t table = cage_read_side(atlas, side == CAGE_SIDE_OUTER, CAGE_SIDE_TABLE) + (uint32_t)class_number * CAGE_CLASS_WORDS;
     struct box_frame frame[BOXES_DEEPEST];

@@ -140,9 +140,9 @@ static void find_middles(const struct cage_survey *survey, int32_t side, struct 
     }
 }
 
-/* The largest sine of half the turn from q to a rotation of the cell, in units of 2^-30. Corners within 90 degrees (as quaternions)
- * of q: the cell is then a convex part of that hemisphere, on which the angle from q has its maximum at a corner; and the sine
- * rises with it. Else 1. */
+/* The largest sine of half the turn from q to a rotation of the cell, in units of 2^-30. Corners within 90 degrees (as
+ * quaternions) of q: the cell is then a convex part of that hemisphere, on which the angle from q has its maximum at a
+ * corner; and the sine rises with it. Else 1. */
 static int32_t sine_of(const struct cage_fibre *fibre, const struct cage_cell *cell, const int32_t q[4])
 {
     int32_t corner[8][4], count = fibre->corners(cell, corner), before = 0, after = 0;

@@ -5,10 +5,10 @@
 #include <string.h>
 
 /* After the five words of words.h: the plan (side, level, max_cells); the dimension; the numbers of the object's and the
- * obstacles' inner and outer balls; the balls (centre and radius each); how many cells were cut, and which, in their order. Then for
- * each side the slices of leaves: cell, components, words of the chart, the chart, for each component its extent and, of
- * an outer one, the inner component that holds it; 0 ends them. Then its gluings: two leaves, the number of pairs of components that
- * share a point, the pairs; 0 ends them. Cells have the numbers of the graph. */
+ * obstacles' inner and outer balls; the balls (centre and radius each); how many cells were cut, and which, in their order.
+ * Then for each side the slices of leaves: cell, components, words of the chart, the chart, for each component its extent
+ * and, of an outer one, the inner component that holds it; 0 ends them. Then its gluings: two leaves, the number of pairs of
+ * components that share a point, the pairs; 0 ends them. Cells have the numbers of the graph. */
 enum { MAGIC = 0x66676163, FORMAT = 1, PLAN = 5, DIM = 8, BALLS = 9, HEAD = 13, EXTENT = 11 };
 
 /* ---- writing -------------------------------------------------------------------------------------------- */
@@ -207,8 +207,8 @@ static int32_t check_tree(struct reader *reader, const struct cage_graph *graph,
         return -1;
     for (int32_t i = 0; i < count; i++, cells += children) {
         int32_t cut = next_number(reader);
-        if (!is_within(reader, cut, CAGE_CELL_ROOT, cells - 1) || seen[cut].level < 0 || seen[cut].level >= graph->fibre->max_level ||
-            (cells < graph->cells && graph->cell[cells].parent != cut))
+        if (!is_within(reader, cut, CAGE_CELL_ROOT, cells - 1) || seen[cut].level < 0 ||
+            seen[cut].level >= graph->fibre->max_level || (cells < graph->cells && graph->cell[cells].parent != cut))
             return -1;
         for (int32_t k = 0; k < children; k++)
             seen[cells + k].level = seen[cut].level + 1;
@@ -222,8 +222,10 @@ static bool check_slices(struct reader *reader, const struct cage_survey *survey
     const struct cage_graph *graph = &survey->proof->graph;
     for (int32_t cell; (cell = next_number(reader)) != 0;) {
         int32_t nodes = next_number(reader), words = next_number(reader);
-        if (!is_within(reader, cell, CAGE_CELL_ROOT, cells - 1) || !is_within(reader, nodes, 1, (int32_t)(reader->words / EXTENT)) ||
-            !is_within(reader, words, CAGE_CHART_HEAD, (int32_t)reader->words) || seen[cell].level < 0 || seen[cell].nodes[side] > 0 ||
+        if (!is_within(reader, cell, CAGE_CELL_ROOT, cells - 1) ||
+            !is_within(reader, nodes, 1, (int32_t)(reader->words / EXTENT)) ||
+            !is_within(reader, words, CAGE_CHART_HEAD, (int32_t)reader->words) || seen[cell].level < 0 ||
+            seen[cell].nodes[side] > 0 ||
             (cell < graph->cells && survey->sheet[side][cell].chart.word && graph->cell[cell].facts[side].nodes != nodes))
             return false;
         seen[cell].nodes[side] = nodes;
