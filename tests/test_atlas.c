@@ -928,7 +928,8 @@ START_TEST(size_is_enough)
     }
     for (int32_t objects = 0; objects <= 2; objects++)
         for (int32_t dim = 2; dim <= 3; dim++) {
-            const cage_scene view = {{ball, ball, objects / 2, (objects + 1) / 2}, {ball, ball, MANY, objects == 1 ? 5 : MANY}, dim};
+            const cage_scene view = {{ball, ball, objects / 2, (objects + 1) / 2}, {ball, ball, MANY, objects == 1 ? 5 : MANY},
+                                     dim};
             cage_plan plan;
             cage_survey *survey;
             cage_plan_default(&plan);

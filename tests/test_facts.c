@@ -1,4 +1,5 @@
-/* test_facts.c: surveys that are interrupted, moved, put together from parts or told nonsense end in the same atlas, or refuse. */
+/* test_facts.c: surveys that are interrupted, moved, put together from parts or told nonsense end in the same atlas, or
+ * refuse. */
 #include "support.h"
 
 #include <stdlib.h>
