@@ -87,7 +87,7 @@ static uint64_t work_bytes(const cage_scene *scene)
  * cannot take: the most it ever takes and an eighth. (Each part grows with the block: a larger one serves as well.) Where all
  * facts are kept, half is for them and a third to work in. */
 enum { FACTS_PART = 4, WORK_PART = 2, ALL_FACTS_PART = 2, ALL_WORK_PART = 3, LEAST_WORK_PART = 8, WORK_TIMES = 4 };
-enum { FIRST_BYTES = 256 << 10, FIRST_FACTS_PART = 16, FIRST_WORK_20THS = 9, SPARE_FACTS = 2048 };
+enum { FIRST_BYTES = 256 << 10, FIRST_FACTS_PART = 16, FIRST_WORK_20THS = 9, SPARE_POSES = 64 };
 
 static size_t facts_part(const struct cage_proof *proof) { return proof->all ? ALL_FACTS_PART : FACTS_PART; }
 static size_t work_part(const struct cage_proof *proof) { return proof->all ? ALL_WORK_PART : WORK_PART; }
@@ -103,29 +103,30 @@ static void share_out(struct cage_proof *proof)
     hold = hold / CAGE_ALIGN * CAGE_ALIGN;
     unsigned char *at = proof->arena.base + proof->arena.used + facts;
     proof->shared = left;
-    proof->fixed = proof->before = proof->arena.used;
+    proof->fixed = proof->arena.used;
     proof->arena.size = proof->arena.used + facts;
     cage_store_init(&proof->store, at, hold);
     cage_arena_init(&proof->scratch, at + hold, left - facts - hold);
 }
 
-void cage_proof_make_room(struct cage_proof *proof)
+bool cage_proof_make_room(struct cage_proof *proof)
 {
     struct cage_arena *arena = &proof->arena;
     struct cage_store *store = &proof->store;
-    size_t used = arena->used + (size_t)proof->path_count * sizeof *proof->path, facts = used - proof->fixed;
-    if (used > proof->before && used - proof->before > proof->most)
-        proof->most = used - proof->before;
-    proof->before = used;
-    size_t wanted = 2 * proof->most + SPARE_FACTS, more = facts / 16 > wanted ? facts / 16 : wanted;
-    if (proof->all || arena->size - used >= wanted)
-        return;
-    more = (more < store->size / 4 ? more : store->size / 4) / CAGE_ALIGN * CAGE_ALIGN;
+    size_t missing = arena->needed > arena->size ? arena->needed - arena->size : 0;
+    if (proof->path && proof->path_count == proof->path_room)
+        missing = SPARE_POSES * sizeof *proof->path;
+    size_t more = (arena->size - proof->fixed) / FIRST_FACTS_PART;
+    more = ((more > missing ? more : missing) + CAGE_ALIGN - 1) / CAGE_ALIGN * CAGE_ALIGN;
+    if (missing == 0 || more > store->size)
+        return false;
     cage_store_clear(store);
     cage_store_init(store, store->base + more, store->size - more);
     arena->size += more;
+    arena->needed = 0;
     if (proof->path)
-        proof->path_room += (int32_t)(more / sizeof *proof->path);
+        proof->path_room = (int32_t)((arena->size - arena->used) / sizeof *proof->path);
+    return true;
 }
 
 /* Enough for one search. */
