@@ -82,49 +82,51 @@ static uint64_t work_bytes(const cage_scene *scene)
     return (scene->dim == 2 ? 600 : 1400) * (inner > outer ? inner : outer) + 32768;
 }
 
-/* What is left of the block is shared out: a quarter for facts, or little, if it is a small block (half, when all of them are
- * kept); half of all to work in, or as much as that ever takes and an eighth; and what then is left to hold slices, at the
- * expense of which there can be more facts later. */
+/* What is left of the block is shared out: of the first 256 KiB a 16th for facts and 9 20ths to work in, of what is beyond a
+ * quarter and half; all others are to hold slices, at the expense of which there can be more facts later, and so is what working
+ * cannot take: the most it ever takes and an eighth. (Each part grows with the block: a larger one serves as well.) Where all
+ * facts are kept, half is for them and a third to work in. */
 enum { FACTS_PART = 4, WORK_PART = 2, ALL_FACTS_PART = 2, ALL_WORK_PART = 3, LEAST_WORK_PART = 8, WORK_TIMES = 4 };
-enum { SMALL_BLOCK = 256 << 10, SMALL_FACTS_PART = 16, SMALL_WORK_PART = 9, SPARE_FACTS = 1024 }; /* a 16th, 9 20ths */
+enum { FIRST_BYTES = 256 << 10, FIRST_FACTS_PART = 16, FIRST_WORK_20THS = 9, SPARE_POSES = 64 };
 
 static size_t facts_part(const struct cage_proof *proof) { return proof->all ? ALL_FACTS_PART : FACTS_PART; }
 static size_t work_part(const struct cage_proof *proof) { return proof->all ? ALL_WORK_PART : WORK_PART; }
 
 static void share_out(struct cage_proof *proof)
 {
-    size_t left = proof->arena.size - proof->arena.used;
-    size_t part = !proof->all && left < SMALL_BLOCK ? SMALL_FACTS_PART : facts_part(proof);
-    size_t facts = left / part / CAGE_ALIGN * CAGE_ALIGN;
-    uint64_t most = part == SMALL_FACTS_PART ? left / 20 * SMALL_WORK_PART : left / work_part(proof);
+    size_t left = proof->arena.size - proof->arena.used, first = left < FIRST_BYTES ? left : FIRST_BYTES;
+    first = proof->all ? 0 : first;
+    size_t facts = (first / FIRST_FACTS_PART + (left - first) / facts_part(proof)) / CAGE_ALIGN * CAGE_ALIGN;
+    uint64_t most = first / 20 * FIRST_WORK_20THS + (left - first) / work_part(proof);
     uint64_t work = WORK_TIMES * work_bytes(&proof->scene) + left / LEAST_WORK_PART;
     size_t hold = left - facts - (size_t)(work < most ? work : most);
     hold = hold / CAGE_ALIGN * CAGE_ALIGN;
     unsigned char *at = proof->arena.base + proof->arena.used + facts;
     proof->shared = left;
-    proof->fixed = proof->before = proof->arena.used;
+    proof->fixed = proof->arena.used;
     proof->arena.size = proof->arena.used + facts;
     cage_store_init(&proof->store, at, hold);
     cage_arena_init(&proof->scratch, at + hold, left - facts - hold);
 }
 
-void cage_proof_make_room(struct cage_proof *proof)
+bool cage_proof_make_room(struct cage_proof *proof)
 {
     struct cage_arena *arena = &proof->arena;
     struct cage_store *store = &proof->store;
-    size_t used = arena->used + (size_t)proof->path_count * sizeof *proof->path, facts = used - proof->fixed;
-    if (used > proof->before && used - proof->before > proof->most)
-        proof->most = used - proof->before;
-    proof->before = used;
-    size_t wanted = 2 * proof->most + SPARE_FACTS, more = facts / 2 > wanted ? facts / 2 : wanted;
-    if (proof->all || arena->size - used >= wanted)
-        return;
-    more = (more < store->size / 4 ? more : store->size / 4) / CAGE_ALIGN * CAGE_ALIGN;
+    size_t missing = arena->needed > arena->size ? arena->needed - arena->size : 0;
+    if (proof->path && proof->path_count == proof->path_room)
+        missing = SPARE_POSES * sizeof *proof->path;
+    size_t more = (arena->size - proof->fixed) / FIRST_FACTS_PART;
+    more = ((more > missing ? more : missing) + CAGE_ALIGN - 1) / CAGE_ALIGN * CAGE_ALIGN;
+    if (missing == 0 || more > store->size)
+        return false;
     cage_store_clear(store);
     cage_store_init(store, store->base + more, store->size - more);
     arena->size += more;
+    arena->needed = 0;
     if (proof->path)
-        proof->path_room += (int32_t)(more / sizeof *proof->path);
+        proof->path_room = (int32_t)((arena->size - arena->used) / sizeof *proof->path);
+    return true;
 }
 
 /* Enough for one search. */

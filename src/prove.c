@@ -189,7 +189,6 @@ static int32_t step_shorten(struct cage_proof *proof)
 
 static int32_t step_phase(struct cage_proof *proof)
 {
-    proof->outer_steps += proof->phase == OUTER;
     switch (proof->phase) {
     case START:
         return step_start(proof);
@@ -213,8 +212,15 @@ int32_t cage_proof_searching(const struct cage_proof *proof)
 
 int32_t cage_proof_step(struct cage_proof *proof)
 {
-    cage_proof_make_room(proof);
-    int32_t error = step_phase(proof);
+    struct cage_node *leg = proof->leg;
+    int32_t error, path_count = proof->path_count;
+    proof->outer_steps += proof->phase == OUTER;
+    do {
+        proof->leg = leg;
+        proof->path_count = path_count;
+        proof->arena.needed = proof->scratch.needed = 0;
+        error = step_phase(proof);
+    } while (error == CAGE_ERROR_MEMORY && cage_proof_make_room(proof));
     proof->result.steps++;
     proof->error = error < 0 ? error : CAGE_OK;
     return proof->error;

@@ -58,9 +58,11 @@ static int32_t build_slice(struct cage_proof *proof, int32_t side, int32_t cell,
     int32_t error = take_or_make(proof, side, cell, &slice);
     if (error == CAGE_OK && facts->nodes == 0) {
         error = cage_graph_add_nodes(&proof->graph, side, cell, slice.regions);
-        proof->result.slices[side]++;
-        proof->result.balls[side] += slice.balls;
-        proof->result.inserted[side] += slice.t.sites - slice.t.dim - 1;
+        if (error == CAGE_OK) {
+            proof->result.slices[side]++;
+            proof->result.balls[side] += slice.balls;
+            proof->result.inserted[side] += slice.t.sites - slice.t.dim - 1;
+        }
         if (error == CAGE_OK && side == CAGE_OUTER)
             error = place_inside(proof, &slice, cell);
     }
@@ -126,8 +128,10 @@ static int32_t glue_node(struct cage_proof *proof, int32_t side, const struct ca
         count = keep_exact(c, d, touch, count);
     if (error == CAGE_OK)
         error = cage_graph_add_gluing(&proof->graph, side, a, b, node->component, touch, count);
-    proof->result.gluings[side]++;
-    proof->result.mixtures[side] += mixed;
+    if (error == CAGE_OK) {
+        proof->result.gluings[side]++;
+        proof->result.mixtures[side] += mixed;
+    }
     cage_arena_release(&proof->scratch, mark);
     return error;
 }
