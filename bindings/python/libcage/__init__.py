@@ -1,0 +1,28 @@
+"""libcage: prove that a rigid object is caged, or that no path joins two poses, or find the path.
+
+    from libcage import Scene
+    fingers = [[0.07, 0, 0.02], [0, 0.07, 0.02], [-0.07, 0, 0.02], [0, -0.07, 0.02]]
+    print(Scene(object=[[0, 0, 0.04]], obstacles=fingers).prove((0, 0, 0)).verdict)   # CAGED
+
+Metres and radians. Doubles are put on an integer grid, balls to the safe side and poses to the nearest;
+every verdict but UNDEFINED is a theorem about these, decided in exact integers.
+"""
+
+from ._native import ABI
+from .atlas import NO_CLASS, Atlas, Class
+from .balls import Balls, Solid
+from .errors import (AtlasError, CageError, GridError, InputError, KindError, LibraryError,
+                     OutOfMemoryError, PoseError, SolidError)
+from .poses import Pose, Poses, from_matrices, from_wxyz, from_xytheta, from_xyzw
+from .proof import Proof
+from .result import Margin, Path, Result, Statistics, Verdict
+from .scene import Scene
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "ABI", "NO_CLASS", "Atlas", "AtlasError", "Balls", "CageError", "Class", "GridError", "InputError",
+    "KindError", "LibraryError", "Margin", "OutOfMemoryError", "Path", "Pose", "PoseError", "Poses",
+    "Proof", "Result", "Scene", "Solid", "SolidError", "Statistics", "Verdict", "from_matrices",
+    "from_wxyz", "from_xytheta", "from_xyzw",
+]
