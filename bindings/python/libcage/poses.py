@@ -7,6 +7,7 @@ plain row of seven numbers is refused, as nobody can tell the order of its quate
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Union
@@ -184,6 +185,11 @@ def pose(value: PoseLike, dim: int) -> Pose:
         if value.dim != dim:
             raise PoseError(f"the pose has {value.dim} dimensions, the scene {dim}")
         return value
+    if dim == 2 and type(value) is tuple and len(value) == 3 and all(type(v) in (int, float) for v in value):
+        x, y, theta = map(float, value)
+        if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(theta)):
+            raise PoseError("pose: NaN or infinite")
+        return Pose((x, y), (math.cos(theta / 2), 0.0, 0.0, math.sin(theta / 2)))
     array = np.asarray(value)
     if dim == 2:
         if array.shape != (3,):
@@ -236,6 +242,25 @@ def to_grid(many: Poses, unit: float) -> Ints:
         turn /= abs(many.wxyz).max(axis=1, initial=0, keepdims=True)
     grid[:, 3:] = np.rint(turn)
     return grid
+
+
+def row_of(one: Pose, unit: float) -> list[int]:
+    """One row as of to_grid, without the cost of arrays."""
+    if any(abs(value / unit) >= _native.REACH[one.dim] + 0.5 for value in one.x):
+        raise PoseError(f"the pose at {list(one.x)} is beyond the grid, which ends at "
+                        f"{_native.REACH[one.dim] * unit:.6g}: use a larger unit")
+    place = [round(value / unit) for value in one.x]
+    scale = float(_native.QUATERNION[one.dim])
+    if one.dim == 3:
+        scale /= max(map(abs, one.wxyz))
+    return place + [0] * (3 - one.dim) + [round(value * scale) for value in one.wxyz]
+
+
+def pose_of(row: Sequence[int], dim: int, unit: float) -> Pose:
+    """A row of the grid as a Pose of the object's origin."""
+    w, x, y, z = row[3:]
+    size = math.sqrt(w * w + x * x + y * y + z * z)
+    return Pose(tuple(value * unit for value in row[:dim]), (w / size, x / size, y / size, z / size))
 
 
 def from_grid(grid: Ints, dim: int, unit: float, pivot: Sequence[int] | None = None) -> Poses:

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from . import _native
 from .errors import CageError, InputError, OutOfMemoryError
 from .grid import Grid
-from .poses import Ints
-from .result import Path, Result, Statistics, Verdict, rounded
+from .poses import Ints, pose_of
+from .result import Path, Result, Statistics, Verdict
 
 PORTION = 0.05   # seconds that a call into the library takes at most, if its steps are short
 ALONE = 0.03     # seconds before threads are started: most proofs are done by then
@@ -29,13 +29,31 @@ def reachable(values: Ints) -> ctypes.c_void_p:
     return ctypes.c_void_p(values.ctypes.data)
 
 
+_spare: list[NDArray[np.uint8]] = []  # one block of a proof that was closed: its pages are there
+SPARE = 64 << 20
+
+
+def take_block(size: int) -> NDArray[np.uint8]:
+    """A block of at least so many bytes."""
+    try:
+        block = _spare.pop()
+    except IndexError:
+        return np.empty(size, dtype=np.uint8)
+    return block if len(block) >= size else np.empty(size, dtype=np.uint8)
+
+
+def give_block(block: NDArray[np.uint8]) -> None:
+    """Keep it for the next proof; nobody may read it any more."""
+    if not _spare and 0 < len(block) <= SPARE:
+        _spare.append(block)
+
+
 class Crew:
     """Threads for one proof or survey, started when it turns out to be long."""
 
     def __init__(self, threads: int | None, pairs: int) -> None:
-        cores: int = _native.lib.cagepy_threads_cores()
-        self.count = cores if threads is None else int(threads)
-        if not 1 <= self.count <= 64:
+        self.count = 0 if threads is None else int(threads)  # 0: not yet asked how many there are
+        if threads is not None and not 1 <= self.count <= 64:
             raise InputError(f"threads: 1 to 64, not {threads}")
         self.pairs = pairs
         self.handle: int | None = None
@@ -43,6 +61,8 @@ class Crew:
 
     def ask(self) -> Any:
         """The workers to pass to C; starts them. None: the proof runs alone."""
+        if self.count == 0:
+            self.count = int(_native.lib.cagepy_threads_cores())
         if self.handle is None and self.count > 1:
             self.handle = _native.lib.cagepy_threads_start(self.count, self.pairs,
                                                            ctypes.byref(self.workers))
@@ -96,7 +116,8 @@ class Proof:
         self._begin(min(size, self.most) if size else 0)
 
     def _begin(self, size: int) -> None:
-        self._block = np.empty(size, dtype=np.uint8)
+        self._block = take_block(size)
+        self._size = size
         self._state = 0
         self._handle = ctypes.c_void_p()
         _native.lib.cage_prove_begin(
@@ -142,10 +163,10 @@ class Proof:
 
     def _grow(self) -> None:
         needed = int(self._raw().needed_bytes)
-        size = max(needed, 2 * len(self._block))
+        size = max(needed, 2 * self._size)
         if size > self.most:
             size = self.most
-        if size <= len(self._block) or needed > self.most:
+        if size <= self._size or needed > self.most:
             raise OutOfMemoryError(
                 f"the proof needs a block of {needed} bytes, and {self.most} are allowed: pass "
                 "memory=..., or a smaller max_cells", needed=needed)
@@ -185,12 +206,12 @@ class Proof:
             raw.level, raw.cells, tuple(raw.slices), tuple(raw.gluings), tuple(raw.mixtures),
             tuple(raw.reached), tuple(raw.balls), tuple(raw.inserted), raw.steps, raw.peak_bytes,
             self.seconds)
-        dim = grid.dim
+        dim, start = grid.dim, tuple(self.start.tolist())
+        goal = None if self.goal is None else tuple(self.goal.tolist())
         return Result(
             verdict, _native.text(_native.lib.cage_reason_text, raw.reason),
-            rounded(self.start, dim, grid.unit),
-            None if self.goal is None else rounded(self.goal, dim, grid.unit),
-            tuple(self.start.tolist()), None if self.goal is None else tuple(self.goal.tolist()),
+            pose_of(start, dim, grid.unit),
+            None if goal is None else pose_of(goal, dim, grid.unit), start, goal,
             grid.unit, dim, tuple(value * grid.unit for value in raw.pivot[:dim]), path, statistics,
             self.about, self.note)
 
@@ -225,7 +246,8 @@ class Proof:
         """Give the memory back; the proof cannot be asked any more."""
         with self._lock:
             self._handle = ctypes.c_void_p()
-            self._block = np.empty(0, dtype=np.uint8)
+            block, self._block = self._block, np.empty(0, dtype=np.uint8)
+            give_block(block)
 
     def __enter__(self) -> Proof:
         return self

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .poses import Ints, Pose, Poses, from_grid
+from .poses import Ints, Pose, Poses, from_grid, pose_of
 
 
 class Verdict(IntEnum):
@@ -164,16 +164,11 @@ class Result:
         stats = {name: tuple(value) if isinstance(value, list) else value
                  for name, value in raw["statistics"].items()}
         return cls(
-            Verdict[raw["verdict"]], raw["reason"], rounded(raw["start"], dim, unit),
-            None if raw["goal"] is None else rounded(raw["goal"], dim, unit), tuple(raw["start"]),
+            Verdict[raw["verdict"]], raw["reason"], pose_of(raw["start"], dim, unit),
+            None if raw["goal"] is None else pose_of(raw["goal"], dim, unit), tuple(raw["start"]),
             None if raw["goal"] is None else tuple(raw["goal"]), unit, dim,
             tuple(value * unit for value in pivot[:dim]), path,
             Statistics(**stats, peak_bytes=0), raw["about"], raw["note"])
-
-
-def rounded(row: Any, dim: int, unit: float) -> Pose:
-    """A row of the grid as a Pose."""
-    return from_grid(np.array([row], dtype=np.int32), dim, unit)[0]
 
 
 @dataclass(frozen=True)

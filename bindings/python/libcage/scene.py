@@ -13,7 +13,7 @@ from . import _native, grid as grids
 from .balls import Solid, SolidLike, solid
 from .errors import GridError, InputError, KindError
 from .grid import Grid
-from .poses import Ints, PoseLike, Poses, PosesLike, pose as read_pose, poses as read_poses
+from .poses import Ints, PoseLike, PosesLike, row_of, pose as read_pose, poses as read_poses
 from .poses import from_grid, to_grid
 from .proof import MEMORY, Proof, reachable
 from .result import Margin, Result
@@ -128,12 +128,12 @@ class Scene:
 
     def _question(self, start: PoseLike, goal: PoseLike | None, room: float = 1.0,
                   ) -> tuple[Grid, Ints, Ints | None]:
-        many = read_pose(start, self.dim)
-        ends = [many] if goal is None else [many, read_pose(goal, self.dim)]
-        both = Poses(np.array([end.x for end in ends]), np.array([end.wxyz for end in ends]))
-        made = self.grid(grids.far(both.x), room)
-        rows = to_grid(both, made.unit)
-        return made, rows[0], None if goal is None else rows[1]
+        first = read_pose(start, self.dim)
+        last = None if goal is None else read_pose(goal, self.dim)
+        far = max(map(abs, first.x if last is None else first.x + last.x))
+        made = self.grid(far, room)
+        ends = [np.array(row_of(end, made.unit), dtype=np.int32) for end in (first, last) if end]
+        return made, ends[0], ends[1] if last is not None else None
 
     def _limits(self, side: int, start_level: int | None, max_level: int | None,
                 max_cells: int | None) -> _native.Limits:
