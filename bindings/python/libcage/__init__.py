@@ -17,12 +17,13 @@ from .poses import Pose, Poses, from_matrices, from_wxyz, from_xytheta, from_xyz
 from .proof import Proof
 from .result import Margin, Path, Result, Statistics, Verdict
 from .scene import Scene
+from .shapes import Check, Fit, fit, verify_balls, verify_cover
 
 __version__ = "0.1.0"
 
 __all__ = [
-    "ABI", "NO_CLASS", "Atlas", "AtlasError", "Balls", "CageError", "Class", "GridError", "InputError",
+    "ABI", "NO_CLASS", "Atlas", "AtlasError", "Balls", "CageError", "Check", "Class", "Fit", "GridError", "InputError",
     "KindError", "LibraryError", "Margin", "OutOfMemoryError", "Path", "Pose", "PoseError", "Poses",
-    "Proof", "Result", "Scene", "Solid", "SolidError", "Statistics", "Verdict", "from_matrices",
-    "from_wxyz", "from_xytheta", "from_xyzw",
+    "Proof", "Result", "Scene", "Solid", "SolidError", "Statistics", "Verdict", "fit", "from_matrices",
+    "from_wxyz", "from_xytheta", "from_xyzw", "verify_balls", "verify_cover",
 ]

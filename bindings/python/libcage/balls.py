@@ -130,13 +130,18 @@ SolidLike = Union[Solid, Balls, NDArray[Any], list[Any], tuple[Any, ...]]
 
 
 def solid(value: Any) -> Solid:
-    """A Solid from a Solid, Balls, an array of rows (which then are the solid), or a shape with .solid()."""
+    """A Solid from a Solid, Balls, an array of rows (which then are the solid), a Fit,
+    or a mesh or polygon, for which balls are made with the default settings."""
     if isinstance(value, Solid):
         return value
     if hasattr(value, "solid") and not isinstance(value, Balls):
         made = value.solid()
         if isinstance(made, Solid):
             return made
+    if hasattr(value, "geom_type") or (hasattr(value, "vertices") and hasattr(value, "faces")):
+        from .shapes import fit
+
+        return fit(value).solid()
     balls = value if isinstance(value, Balls) else Balls(value)
     if balls.kind == "inner":
         return Solid(balls, None)
