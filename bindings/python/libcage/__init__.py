@@ -13,6 +13,8 @@ from .atlas import NO_CLASS, Atlas, Class
 from .balls import Balls, Solid
 from .errors import (AtlasError, CageError, GridError, InputError, KindError, LibraryError,
                      OutOfMemoryError, PoseError, SolidError)
+from .formats import read, read_links, write
+from .many import Question, prove_many
 from .poses import Pose, Poses, from_matrices, from_wxyz, from_xytheta, from_xyzw
 from .proof import Proof
 from .result import Margin, Path, Result, Statistics, Verdict
@@ -24,6 +26,7 @@ __version__ = "0.1.0"
 __all__ = [
     "ABI", "NO_CLASS", "Atlas", "AtlasError", "Balls", "CageError", "Check", "Class", "Fit", "GridError", "InputError",
     "KindError", "LibraryError", "Margin", "OutOfMemoryError", "Path", "Pose", "PoseError", "Poses",
-    "Proof", "Result", "Scene", "Solid", "SolidError", "Statistics", "Verdict", "fit", "from_matrices",
-    "from_wxyz", "from_xytheta", "from_xyzw", "verify_balls", "verify_cover",
+    "Proof", "Question", "Result", "Scene", "Solid", "SolidError", "Statistics", "Verdict", "fit", "from_matrices",
+    "from_wxyz", "from_xytheta", "from_xyzw", "prove_many", "read", "read_links",
+    "verify_balls", "verify_cover", "write",
 ]
