@@ -69,7 +69,7 @@ class Hook(BuildHookInterface[Any]):
         compile_library(root, library)
         build_data["force_include"][str(library)] = f"libcage/{name}"
         if version == "editable":
-            shutil.copy2(library, root / "libcage" / name)
+            shutil.copy2(library, root / "src" / "libcage" / name)
         platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
         build_data["pure_python"] = False
         build_data["tag"] = f"py3-none-{platform}"

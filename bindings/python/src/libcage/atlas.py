@@ -191,13 +191,14 @@ def make(scene: Scene, level: int | None = None, *, budget: int = 0, side: str =
 
     level: of the cells of rotations to begin with (None: chosen from the balls).
     budget: 0, or cells are cut where the two sides disagree until that many were made.
-    far: poses with coordinates up to so many metres will be asked (the scene itself always fits).
+    far: poses with coordinates up to so many metres will be asked; four times the scene's own reach
+    always fit, at the cost of two bits of the grid.
     Other arguments as in Scene.prove. Ctrl-C stops it.
     """
     chosen, use, _, note = scene._permit(side, insist)
     if budget and use != _native.BOTH:
         raise InputError("budget: cells are cut where the two sides disagree, and one is missing. " + note)
-    made = chosen.grid(max(far, scene._reach, scene._object_reach), 2.0)
+    made = chosen.grid(max(far, scene._reach, scene._object_reach), 4.0)
     plan = _native.Plan()
     _native.lib.cage_plan_default(ctypes.byref(plan))
     plan.side, plan.max_cells = use, int(budget)

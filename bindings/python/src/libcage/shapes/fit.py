@@ -101,7 +101,7 @@ def _along(shape: Any, count: int) -> Floats:
     """Points along all rings, about `count`."""
     import shapely
 
-    rings = shapely.get_rings(shape)
+    rings = shapely.get_rings(shapely.get_parts(shape))
     total = sum(ring.length for ring in rings)
     parts = []
     for ring in rings:
@@ -173,20 +173,25 @@ def _candidates(edge: Boundary, solid: Any, surface: Floats, inside: Floats) -> 
 
 
 def _thin(rows: Floats, most: int) -> Floats:
-    """At most so many candidates: the larger ones first, none nearly the same as one that is kept."""
+    """At most so many candidates, all over the solid: of those that are nearly the same the largest,
+    where nearly is the coarser the more there are."""
     from scipy.spatial import cKDTree
 
     rows = rows[np.argsort(-rows[:, -1], kind="stable")]
+    if not len(rows):
+        return rows
     tree = cKDTree(rows[:, :-1])
-    gone = np.zeros(len(rows), dtype=bool)
-    kept = []
-    for i, row in enumerate(rows):
-        if not gone[i]:
-            kept.append(i)
-            if len(kept) == most:
-                break
-            gone[tree.query_ball_point(row[:-1], 0.12 * row[-1])] = True
-    return rows[kept]
+    kept: list[int] = []
+    for share in (0.1, 0.2, 0.35, 0.5, 0.7):
+        gone = np.zeros(len(rows), dtype=bool)
+        kept = []
+        for i, row in enumerate(rows):
+            if not gone[i]:
+                kept.append(i)
+                gone[tree.query_ball_point(row[:-1], share * row[-1])] = True
+        if len(kept) <= most:
+            break
+    return rows[kept[:most]]
 
 
 def _proved(edge: Boundary, row: Floats) -> Floats | None:

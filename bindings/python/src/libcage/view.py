@@ -29,7 +29,7 @@ def _sphere(fine: int) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
 
 def _mesh(rows: NDArray[np.float64], colour: str, name: str, opacity: float = 1.0) -> dict[str, Any]:
     """All balls as one mesh of plotly; coarser where there are many."""
-    points, faces = _sphere(10 if len(rows) < 16 else 8 if len(rows) < 100 else 6)
+    points, faces = _sphere(10 if len(rows) < 16 else 7 if len(rows) < 100 else 5)
     x = (rows[:, None, :3] + rows[:, None, 3:] * points[None]).reshape(-1, 3)
     f = (faces[None] + len(points) * np.arange(len(rows))[:, None, None]).reshape(-1, 3)
     x = x.astype(np.float32)  # half the bytes in the file
@@ -51,7 +51,7 @@ def _discs(rows: NDArray[np.float64], colour: str, name: str, opacity: float = 1
 
 
 def figure(scene: Scene, answer: Result | None = None, start: PoseLike | None = None,
-           goal: PoseLike | None = None, frames: int = 60) -> Any:
+           goal: PoseLike | None = None, frames: int = 40) -> Any:
     """A plotly figure: obstacles, object at start and goal, and the path of `answer` as an animation."""
     from plotly import graph_objects
 
@@ -113,7 +113,7 @@ def _animate(made: Any, scene: Scene, part: Balls, answer: Result, frames: int, 
 
 
 def write_html(path: str | os.PathLike[str], scene: Scene, answer: Result | None = None,
-               start: PoseLike | None = None, goal: PoseLike | None = None, frames: int = 60) -> None:
+               start: PoseLike | None = None, goal: PoseLike | None = None, frames: int = 40) -> None:
     """The figure as one HTML file that needs no network: plotly's script is in it."""
     figure(scene, answer, start, goal, frames).write_html(os.fspath(path), include_plotlyjs=True,
                                                           full_html=True, auto_play=False)
