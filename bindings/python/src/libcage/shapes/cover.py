@@ -90,9 +90,10 @@ def _children(cell: Cell, elements: NDArray[np.int64], balls: NDArray[np.int64])
                  elements, balls, cell.depth + 1) for k in range(1 << dim)]
 
 
-def uncovered(boundary: Boundary, rows: Floats, leaf: float, most: int = 2_000_000) -> list[Cell]:
+def uncovered(boundary: Boundary, rows: Floats, leaf: float, first: bool = False,
+              most: int = 2_000_000) -> list[Cell]:
     """The cells with a half diagonal of at most `leaf` that may hold a point of the solid and that no
-    ball holds. Empty: the balls cover the solid, proved."""
+    ball holds. Empty: the balls cover the solid, proved. first: one such cell is enough."""
     start = root(boundary)
     start.balls = np.arange(len(rows))
     if leaf < start.half * 2.0**-20:
@@ -112,6 +113,8 @@ def uncovered(boundary: Boundary, rows: Floats, leaf: float, most: int = 2_000_0
             continue  # below a cell without elements all is inside: nothing to ask again
         if cell.half * factor <= leaf:
             open_cells.append(cell)
+            if first:
+                break
         else:
             stack.extend(_children(cell, elements, balls))
     return open_cells
@@ -120,18 +123,12 @@ def uncovered(boundary: Boundary, rows: Floats, leaf: float, most: int = 2_000_0
 def complete(boundary: Boundary, rows: Floats, tolerance: float) -> Floats:
     """The balls given, and as many more as cover the solid with them, proved. No point of those
     is farther than `tolerance` from the solid."""
-    leaf = tolerance / 4
-    radius = 0.75 * tolerance * (1 - 1e-9)
+    leaf = 0.4 * tolerance
+    radius = (tolerance - leaf) * (1 - 1e-9)  # more than the leaf: such a ball holds its own cell
     added: list[Floats] = []
-    centres = np.zeros((0, boundary.dim))
     for cell in uncovered(boundary, rows, leaf):
-        if len(centres) and _held(cell, np.c_[centres, np.full(len(centres), radius)]).any():
-            continue
-        ball = np.append(cell.centre, radius)
-        added.append(ball)
-        centres = np.vstack([centres, cell.centre])
-    result = np.vstack([rows, *added]) if added else rows
-    left = uncovered(boundary, result, leaf)
-    if left:
-        raise SolidError("the cover could not be completed. This is a bug; please report the solid")
-    return result
+        if not added or not _held(cell, np.array(added)).any():
+            added.append(np.append(cell.centre, radius))
+            if not _held(cell, added[-1][None])[0]:
+                raise SolidError("the cover could not be completed. This is a bug; please report the solid")
+    return np.vstack([rows, *added])
