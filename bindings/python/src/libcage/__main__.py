@@ -137,8 +137,10 @@ def run(given: argparse.Namespace) -> None:
 
         from . import plot
 
-        plot.result(scene, answer).figure.savefig(given.png, dpi=150)
-        pyplot.close("all")
+        figure, axes = pyplot.subplots()
+        plot.result(scene, answer, ax=axes)
+        figure.savefig(given.png, dpi=150)
+        pyplot.close(figure)
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -102,7 +102,7 @@ class Atlas:
         """Write the bytes: beside first, then moved into place."""
         part = os.fspath(path) + ".part"
         with open(part, "wb") as file:
-            file.write(self._bytes)
+            file.write(self.to_bytes())
         os.replace(part, path)
 
     @classmethod

@@ -83,12 +83,13 @@ def scene(what: Scene, start: PoseLike | None = None, goal: PoseLike | None = No
 def result(what: Scene, answer: Result, frames: int = 14, ax: Axes | None = None) -> Axes:
     """The scene with start and goal, and the path found, as frames from violet to yellow and a line."""
     from matplotlib import colormaps
+    from matplotlib.colors import to_hex
 
     ax = scene(what, answer.start, answer.goal, ax)
     if answer.path is not None:
         poses = answer.path.frames(frames)
         for i in range(len(poses)):
-            colour = colormaps["plasma"](i / max(len(poses) - 1, 1))
+            colour = to_hex(colormaps["plasma"](i / max(len(poses) - 1, 1)))
             circles(ax, placed(shown(what, "object"), poses[i]), colour, 0.35, 2)
         fine = answer.path.frames(200)
         at = fine.x + (fine.matrices()[:, :2, :2] @ np.asarray(answer.pivot))
@@ -104,7 +105,7 @@ def _raster(what: Scene, points: int) -> tuple[NDArray[np.float64], NDArray[np.f
     if not len(rows):
         rows = np.array([[0.0, 0.0, 1.0]])
     part = shown(what, "object").rows
-    room = 1.1 * float((np.linalg.norm(part[:, :2], axis=1) + part[:, 2]).max(initial=0.0))
+    room = 2 * float((np.linalg.norm(part[:, :2], axis=1) + part[:, 2]).max(initial=0.0))
     low = (rows[:, :2] - rows[:, 2:]).min(axis=0) - room
     high = (rows[:, :2] + rows[:, 2:]).max(axis=0) + room
     pitch = float((high - low).max()) / points

@@ -85,7 +85,7 @@ class Poses:
     @property
     def theta(self) -> Floats:
         """The angles about z in radians, of poses in the plane."""
-        return np.asarray([pose.theta for pose in self])
+        return np.asarray([pose.theta for pose in map(self.__getitem__, range(len(self)))])
 
     def matrices(self) -> Floats:
         """Homogeneous matrices of shape (n, dim + 1, dim + 1)."""

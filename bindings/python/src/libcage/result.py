@@ -161,7 +161,7 @@ class Result:
         if raw["path"] is not None:
             grid = np.array(raw["path"], dtype=np.int32).reshape(-1, 7)
             path = Path(grid, (pivot[0], pivot[1], pivot[2]), unit, dim)
-        stats = {name: tuple(value) if isinstance(value, list) else value
+        stats: dict[str, Any] = {name: tuple(value) if isinstance(value, list) else value
                  for name, value in raw["statistics"].items()}
         return cls(
             Verdict[raw["verdict"]], raw["reason"], pose_of(raw["start"], dim, unit),

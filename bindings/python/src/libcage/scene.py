@@ -241,7 +241,7 @@ class Scene:
         if (out < 0).any():
             index = int(np.argmax(out < 0))
             raise _native.failure(int(out[index]), f"pose {index}")
-        return out == 1
+        return np.asarray(out == 1)
 
     def atlas(self, level: int | None = None, **options: Any) -> Atlas:
         """The connectivity of the whole scene, to be asked many times: see libcage.atlas.make."""

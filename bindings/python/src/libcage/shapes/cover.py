@@ -50,7 +50,7 @@ def _meets(boundary: Boundary, cell: Cell) -> NDArray[np.int64]:
     box = (boundary.low[which] <= cell.centre + cell.half) & (boundary.high[which] >= cell.centre - cell.half)
     which = which[box.all(axis=1)]
     if not len(which):
-        return which
+        return np.asarray(which)
     corners = boundary.corners[which] - cell.centre
     edges = np.roll(corners, -1, axis=1) - corners if boundary.dim == 3 else corners[:, 1:] - corners[:, :1]
     far = np.linalg.norm(corners, axis=2).max(axis=1) + cell.half
@@ -59,28 +59,31 @@ def _meets(boundary: Boundary, cell: Cell) -> NDArray[np.int64]:
         axes = np.stack([-edges[..., 1], edges[..., 0]], axis=2)
         error = MARGIN * length * far[:, None]
     else:
-        normal = np.cross(edges[:, 0], edges[:, 1])[:, None]
-        sides = [np.cross(unit, edges) for unit in np.eye(3)]
-        axes = np.concatenate([normal, *sides], axis=1)
+        axes = np.zeros((len(which), 10, 3))
+        axes[:, 0] = np.cross(edges[:, 0], edges[:, 1])
+        for k in range(3):  # the k-th unit vector times each edge
+            i, j = (k + 1) % 3, (k + 2) % 3
+            axes[:, 3 * k + 1 : 3 * k + 4, i] = -edges[..., j]
+            axes[:, 3 * k + 1 : 3 * k + 4, j] = edges[..., i]
         error = MARGIN * far[:, None] * np.concatenate(
             [length[:, :1] * length[:, 1:2], length, length, length], axis=1)
     along = np.einsum("nac,nvc->nav", axes, corners)
     reach = cell.half * abs(axes).sum(axis=2) + error
     apart = (along.min(axis=2) > reach) | (along.max(axis=2) < -reach)
-    return which[~apart.any(axis=1)]
+    return np.asarray(which[~apart.any(axis=1)])
 
 
 def _held(cell: Cell, rows: Floats) -> NDArray[np.bool_]:
     """Which balls surely hold all of the closed cell?"""
     far = np.sqrt(((abs(rows[:, :-1] - cell.centre) + cell.half) ** 2).sum(axis=1))
-    return far <= rows[:, -1] * HELD
+    return np.asarray(far <= rows[:, -1] * HELD)
 
 
 def _meeting(cell: Cell, rows: Floats, which: NDArray[np.int64]) -> NDArray[np.int64]:
     """Of these balls those that may meet the cell."""
     part = rows[which]
     near = np.maximum(abs(part[:, :-1] - cell.centre) - cell.half, 0)
-    return which[(near**2).sum(axis=1) <= part[:, -1] ** 2 * (1 + 1e-9)]
+    return np.asarray(which[(near**2).sum(axis=1) <= part[:, -1] ** 2 * (1 + 1e-9)])
 
 
 def _children(cell: Cell, elements: NDArray[np.int64], balls: NDArray[np.int64]) -> list[Cell]:

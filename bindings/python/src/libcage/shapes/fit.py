@@ -169,7 +169,7 @@ def _candidates(edge: Boundary, solid: Any, surface: Floats, inside: Floats) -> 
     if not len(points):
         return np.zeros((0, edge.dim + 1))
     rows = np.c_[points, _distance(edge, solid, points) * (1 - SHRINK)]
-    return rows[rows[:, -1] > 1e-6 * edge.size]
+    return np.asarray(rows[rows[:, -1] > 1e-6 * edge.size])
 
 
 def _thin(rows: Floats, most: int) -> Floats:
@@ -191,7 +191,7 @@ def _thin(rows: Floats, most: int) -> Floats:
                 gone[tree.query_ball_point(row[:-1], share * row[-1])] = True
         if len(kept) <= most:
             break
-    return rows[kept[:most]]
+    return np.asarray(rows[kept[:most]])
 
 
 def _proved(edge: Boundary, row: Floats) -> Floats | None:
