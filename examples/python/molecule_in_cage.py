@@ -1,9 +1,9 @@
-"""A molecule in a cage: hydrogen in C60, whose atoms come from their formula; and C60 with a hole in it.
+"""A molecule in a cage: hydrogen in C60, made from its formula, and C60 with a hole in it.
 
-Lengths are in units of 0.1 nm. Atoms are balls of their van der Waals radii; two that overlap collide. Between any six
-atoms of a hexagon (side 1.42) no ball of radius r can pass while 1.70 + r > 1.42, as every point between them is not
-farther than 1.42 from one. So helium is caged until all radii have shrunk by (1.70 + 1.40 - 1.42) / 2 = 0.84.
-"""
+Lengths are in units of 0.1 nm. Atoms are balls of their van der Waals radii; two that overlap
+collide. Between any six atoms of a hexagon (side 1.42) no ball of radius r can pass while 1.70 + r
+> 1.42, as every point between them is not farther than 1.42 from one. So helium is caged until all
+radii have shrunk by (1.70 + 1.40 - 1.42) / 2 = 0.84."""
 
 import itertools
 import math
@@ -16,14 +16,17 @@ BOND, CARBON, HYDROGEN, HELIUM = 1.42, 1.70, 1.20, 1.40
 
 
 def c60() -> np.ndarray:
-    """The 60 corners of a truncated icosahedron: even permutations of three triples, edges of length 2."""
+    """The 60 corners of a truncated icosahedron: even permutations of three triples, edges of
+    length 2."""
     g = (1 + math.sqrt(5)) / 2
     corners = set()
     for triple in ((0, 1, 3 * g), (1, 2 + g, 2 * g), (g, 2, 2 * g + 1)):
         for signs in itertools.product((1, -1), repeat=3):
             x, y, z = (s * v for s, v in zip(signs, triple))
             corners |= {(x, y, z), (y, z, x), (z, x, y)}
-    return np.array(sorted({tuple(round(v, 12) + 0.0 for v in corner) for corner in corners})) * (BOND / 2)
+    return np.array(sorted({tuple(round(v, 12) + 0.0 for v in corner) for corner in corners})) * (
+        BOND / 2
+    )
 
 
 def main() -> dict:

@@ -1,8 +1,8 @@
-"""A gripper and a mug, seen from the side: one finger goes through the handle, the other is a stop behind the mug.
+"""A gripper and a mug, from the side: a finger goes through the handle, a stop is behind.
 
-Mug and fingers are polygons; balls are made for both, inner ones proved to lie inside and outer ones proved to cover.
-The handle is whole, or has a gap that is narrower or wider than the finger: with the wide one the mug can leave.
-"""
+Mug and fingers are polygons; balls are made for both, inner ones proved to lie inside and outer
+ones proved to cover. The handle is whole, or has a gap that is narrower or wider than the finger:
+with the wide one the mug can leave."""
 
 import sys
 
@@ -16,8 +16,8 @@ FINGER = 0.006  # radius, metres
 
 
 def mug(gap: float) -> shapely.Polygon:
-    """80 mm wide, 90 mm high, the wall's section left out: seen from the side it is full. The handle
-    is a ring of 12 mm with a gap in the middle of its right side."""
+    """80 mm wide, 90 mm high, the wall's section left out: seen from the side it is full. The
+    handle is a ring of 12 mm with a gap in the middle of its right side."""
     body = box(-0.040, 0.0, 0.040, 0.090)
     handle = Point(0.040, 0.045).buffer(0.034, 32).difference(Point(0.040, 0.045).buffer(0.022, 32))
     whole = body.union(handle)
@@ -28,7 +28,9 @@ def mug(gap: float) -> shapely.Polygon:
 
 def gripper() -> shapely.MultiPolygon:
     """Two fingertips: one in the handle, one 50 mm behind the body."""
-    return shapely.MultiPolygon([Point(0.051, 0.045).buffer(FINGER, 16), Point(-0.090, 0.045).buffer(FINGER, 16)])
+    return shapely.MultiPolygon(
+        [Point(0.051, 0.045).buffer(FINGER, 16), Point(-0.090, 0.045).buffer(FINGER, 16)]
+    )
 
 
 def main(picture: str = "") -> dict:
@@ -40,7 +42,10 @@ def main(picture: str = "") -> dict:
         scene = libcage.Scene(part, fingers)
         answer = scene.prove((0.0, 0.0, 0.0))
         found[gap] = answer
-        print(f"gap {1e3 * gap:.0f} mm: {answer.verdict}, {len(part.inner)} inner balls, {len(part.outer)} outer")
+        print(
+            f"gap {1e3 * gap:.0f} mm: {answer.verdict}, "
+            f"{len(part.inner)} inner balls, {len(part.outer)} outer"
+        )
         if picture and answer.path is not None:
             plot.result(scene, answer).figure.savefig(picture, dpi=120)
     return found

@@ -1,8 +1,7 @@
-"""A planner of OMPL and a proof side by side: the planner stops with INFEASIBLE when the proof lands.
+"""A planner of OMPL and a proof side by side: it stops with INFEASIBLE when the proof lands.
 
-A plus-shaped part in the rooms of examples/walls. One goal can be reached; the other lies in another room, and
-a planner alone would look for a way until its time is up.
-"""
+A plus-shaped part in the rooms of examples/walls. One goal can be reached; the other lies in
+another room, and a planner alone would look for a way until its time is up."""
 
 import math
 from pathlib import Path
@@ -24,7 +23,8 @@ def planner_for(scene: libcage.Scene, start: tuple, goal: tuple) -> geometric.RR
     space.setBounds(bounds)
     information = base.SpaceInformation(space)
     information.setStateValidityChecker(
-        lambda state: not scene.collides([[state.getX(), state.getY(), state.getYaw()]])[0])
+        lambda state: not scene.collides([[state.getX(), state.getY(), state.getYaw()]])[0]
+    )
     information.setup()
     problem = base.ProblemDefinition(information)
     states = []
@@ -43,16 +43,24 @@ def planner_for(scene: libcage.Scene, start: tuple, goal: tuple) -> geometric.RR
 
 def main() -> dict:
     util.setLogLevel(util.LogLevel.LOG_ERROR)
-    scene = libcage.Scene(libcage.read(WALLS / "plus.xyzr", kind="exact"),
-                          libcage.read(WALLS / "walls_R4.xyzr", kind="exact"))
+    scene = libcage.Scene(
+        libcage.read(WALLS / "plus.xyzr", kind="exact"),
+        libcage.read(WALLS / "walls_R4.xyzr", kind="exact"),
+    )
     hall = (300.0, 320.0, math.pi / 4)
     found = {}
-    for name, goal in (("hall to hall", (390.0, 300.0, 0.35)), ("hall to chamber", (185.0, 195.0, math.pi / 4))):
+    for name, goal in (
+        ("hall to hall", (390.0, 300.0, 0.35)),
+        ("hall to chamber", (185.0, 195.0, math.pi / 4)),
+    ):
         alone = planner_for(scene, hall, goal).solve(2.0)
         both = race_ompl(planner_for(scene, hall, goal), scene, hall, goal, seconds=60)
         found[name] = (alone.getStatus().name, both.status.getStatus().name, both.proof)
         verdict = "the planner was first" if both.proof is None else str(both.proof.verdict)
-        print(f"{name}: the planner alone: {found[name][0]}; beside a proof: {found[name][1]} ({verdict})")
+        print(
+            f"{name}: the planner alone: {found[name][0]}; "
+            f"beside a proof: {found[name][1]} ({verdict})"
+        )
     return found
 
 

@@ -1,4 +1,4 @@
-"""The examples run, and say what must be true of their scenes for reasons that stand in each of them."""
+"""The examples run, and say what must be true of their scenes, for reasons given in them."""
 
 import importlib
 import os
@@ -22,13 +22,19 @@ def example(name):
 
 def test_peg_in_hole_goes_in_exactly_with_clearance():
     assert {c: v for c, v in example("peg_in_hole").main().items()} == {
-        c: Verdict.CONNECTED if c > 0 else Verdict.DISCONNECTED for c in (-5e-4, -1e-4, -2e-5, 2e-5, 1e-4, 5e-4)}
+        c: Verdict.CONNECTED if c > 0 else Verdict.DISCONNECTED
+        for c in (-5e-4, -1e-4, -2e-5, 2e-5, 1e-4, 5e-4)
+    }
 
 
 def test_mug_leaves_the_finger_only_through_the_wide_gap(tmp_path):
     found = example("mug_on_finger").main(str(tmp_path / "mug.png"))
     # The finger's diameter is 12 mm; the gaps are 0, 8 and 26 mm, and the way to the left is clear.
-    assert [answer.verdict for answer in found.values()] == [Verdict.CAGED, Verdict.CAGED, Verdict.FREE]
+    assert [answer.verdict for answer in found.values()] == [
+        Verdict.CAGED,
+        Verdict.CAGED,
+        Verdict.FREE,
+    ]
     assert (tmp_path / "mug.png").stat().st_size > 10_000
 
 

@@ -1,6 +1,5 @@
-"""prove_many: the same bytes on every executor, with workers that die, with checkpoints that lie."""
+"""prove_many: the same bytes on every executor, with workers that die, checkpoints that lie."""
 
-import json
 import os
 import signal
 import time
@@ -10,7 +9,6 @@ from concurrent.futures.process import BrokenProcessPool
 import numpy as np
 import pytest
 
-import libcage
 from libcage import Balls, InputError, KindError, Question, Scene, many, prove_many
 
 
@@ -21,8 +19,14 @@ def questions(count=24):
         t = np.sort(rng.uniform(0, 2 * np.pi, 6))
         walls = np.c_[0.09 * np.cos(t), 0.09 * np.sin(t), rng.uniform(0.02, 0.05, 6)]
         part = [[0, 0, 0.03], [0.04, 0, 0.01], [-0.03, 0.02, 0.01]]
-        made.append(Question(Scene(part, walls), (0, 0, float(k)), (0.4, 0, 0) if k % 3 == 0 else None,
-                             {"max_cells": 2000}))
+        made.append(
+            Question(
+                Scene(part, walls),
+                (0, 0, float(k)),
+                (0.4, 0, 0) if k % 3 == 0 else None,
+                {"max_cells": 2000},
+            )
+        )
     return made
 
 
@@ -96,15 +100,30 @@ def test_checkpoints(wanted, tmp_path, monkeypatch):
     assert len(asked) == len(wanted) - 8
 
 
-def test_checkpoints_that_were_changed_or_belong_to_another_question_are_not_believed(tmp_path, monkeypatch):
+def test_checkpoints_that_were_changed_or_belong_to_another_question_are_not_believed(
+    tmp_path, monkeypatch
+):
     free = Question(Scene([[0, 0, 0.04]], [[0.07, 0, 0.02]]), (0, 0, 0))
-    caged = Question(Scene([[0, 0, 0.04]], [[0.07 * np.cos(t), 0.07 * np.sin(t), 0.02] for t in (0, 1.6, 3.1, 4.7)]),
-                     (0, 0, 0))
-    assert [str(r.verdict) for r in prove_many([free, caged], checkpoint=tmp_path)] == ["FREE", "CAGED"]
+    caged = Question(
+        Scene(
+            [[0, 0, 0.04]], [[0.07 * np.cos(t), 0.07 * np.sin(t), 0.02] for t in (0, 1.6, 3.1, 4.7)]
+        ),
+        (0, 0, 0),
+    )
+    assert [str(r.verdict) for r in prove_many([free, caged], checkpoint=tmp_path)] == [
+        "FREE",
+        "CAGED",
+    ]
     file = tmp_path / f"{free.key()}.json"
     good = file.read_text()
-    for bad in (good.replace("FREE", "CAGED"), good[:100], "", "[]", "{}",
-                (tmp_path / f"{caged.key()}.json").read_text()):
+    for bad in (
+        good.replace("FREE", "CAGED"),
+        good[:100],
+        "",
+        "[]",
+        "{}",
+        (tmp_path / f"{caged.key()}.json").read_text(),
+    ):
         file.write_text(bad)
         assert str(prove_many([free], checkpoint=tmp_path)[0].verdict) == "FREE"
     before = free.key()
@@ -116,11 +135,17 @@ def test_everything_that_an_answer_depends_on_is_in_the_key():
     disc, walls = [[0, 0, 0.04]], [[0.07, 0, 0.02], [-0.07, 0, 0.02]]
     base = Scene(disc, walls)
     same = [Question(base, (0, 0, 0)), Question(Scene(np.array(disc), walls), [0.0, 0, 0])]
-    other = [Question(base, (0, 0, 0.1)), Question(base, (0, 0, 0), (0, 0, 0)), Question(Scene(walls, disc), (0, 0, 0)),
-             Question(base, (0, 0, 0), options={"side": "inner"}), Question(base, (0, 0, 0), options={"max_cells": 9}),
-             Question(Scene(Balls(disc, "inner"), walls), (0, 0, 0)),
-             Question(Scene(Balls(disc, "outer"), walls), (0, 0, 0), options={"insist": True}),
-             Question(Scene(disc, walls, unit=2.0**-20), (0, 0, 0)), Question(Scene(disc, walls[:1]), (0, 0, 0))]
+    other = [
+        Question(base, (0, 0, 0.1)),
+        Question(base, (0, 0, 0), (0, 0, 0)),
+        Question(Scene(walls, disc), (0, 0, 0)),
+        Question(base, (0, 0, 0), options={"side": "inner"}),
+        Question(base, (0, 0, 0), options={"max_cells": 9}),
+        Question(Scene(Balls(disc, "inner"), walls), (0, 0, 0)),
+        Question(Scene(Balls(disc, "outer"), walls), (0, 0, 0), options={"insist": True}),
+        Question(Scene(disc, walls, unit=2.0**-20), (0, 0, 0)),
+        Question(Scene(disc, walls[:1]), (0, 0, 0)),
+    ]
     assert len({one.key() for one in same}) == 1
     assert len({one.key() for one in same + other}) == 1 + len(other)
 
@@ -137,8 +162,16 @@ def test_what_the_library_refuses_is_raised_at_once(tmp_path):
 
 def test_dask_with_a_worker_that_is_killed_gives_the_same_bytes(wanted):
     distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None,
-                                  memory_limit=0) as cluster, distributed.Client(cluster) as client:
+    with (
+        distributed.LocalCluster(
+            n_workers=2,
+            threads_per_worker=1,
+            processes=True,
+            dashboard_address=None,
+            memory_limit=0,
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
         pids = client.run(os.getpid)
         assert len(set(pids.values())) == 2
         killed = []

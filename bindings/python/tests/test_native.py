@@ -11,7 +11,9 @@ from libcage import _native
 from libcage.errors import LibraryError
 
 HERE = Path(__file__).parent.parent
-TOPS = [Path(p) for p in (os.environ.get("LIBCAGE_SOURCES", ""), HERE / "csrc", HERE.parent.parent) if p]
+TOPS = [
+    Path(p) for p in (os.environ.get("LIBCAGE_SOURCES", ""), HERE / "csrc", HERE.parent.parent) if p
+]
 TOP = next((top for top in TOPS if (top / "include" / "cage.h").is_file()), None)
 needs_header = pytest.mark.skipif(TOP is None, reason="no C sources here")
 
@@ -21,7 +23,9 @@ def functions(path):
     text = re.sub(r"/\*.*?\*/", "", path.read_text(), flags=re.S)
     text = re.sub(r"^\s*#.*$", "", text, flags=re.M)
     found = {}
-    for result, name, arguments in re.findall(r"([\w ]+?[ *]+)(cage(?:py)?_\w+)\(([^()]*)\);", text):
+    for result, name, arguments in re.findall(
+        r"([\w ]+?[ *]+)(cage(?:py)?_\w+)\(([^()]*)\);", text
+    ):
         parts = [part.strip() for part in arguments.split(",")]
         found[name] = (result.replace("CAGEPY_API", "").strip(), [] if parts == ["void"] else parts)
     return found
@@ -32,8 +36,13 @@ def kind(declaration):
     if "*" in declaration or "[" in declaration:
         return "pointer"
     words = declaration.replace("const ", "").split()
-    return {"int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64, "uint64_t": ctypes.c_uint64,
-            "size_t": ctypes.c_size_t, "void": None}[words[0]]
+    return {
+        "int32_t": ctypes.c_int32,
+        "int64_t": ctypes.c_int64,
+        "uint64_t": ctypes.c_uint64,
+        "size_t": ctypes.c_size_t,
+        "void": None,
+    }[words[0]]
 
 
 def same(declared, used):
@@ -64,7 +73,9 @@ def test_table_is_the_headers():
 @needs_header
 def test_constants_are_the_headers():
     text = (TOP / "include" / "cage.h").read_text()
-    value = {name: int(number) for name, number in re.findall(r"#define (CAGE_\w+) \(?(-?\d+)\)?", text)}
+    value = {
+        name: int(number) for name, number in re.findall(r"#define (CAGE_\w+) \(?(-?\d+)\)?", text)
+    }
     assert value["CAGE_ABI"] == _native.ABI
     assert {2: value["CAGE_REACH_2D"], 3: value["CAGE_REACH_3D"]} == _native.REACH
     assert {2: value["CAGE_LEVEL_MAX_2D"], 3: value["CAGE_LEVEL_MAX_3D"]} == _native.LEVEL_MAX
@@ -72,6 +83,7 @@ def test_constants_are_the_headers():
     structs = {number: name for name, number in value.items() if name.startswith("CAGE_STRUCT_")}
     assert sorted(structs) == list(range(len(_native.STRUCTS)))
     from libcage.errors import ADVICE
+
     errors = {number for name, number in value.items() if name.startswith("CAGE_ERROR_")}
     assert errors == set(ADVICE)
 
@@ -79,16 +91,35 @@ def test_constants_are_the_headers():
 @needs_header
 def test_struct_fields_are_the_headers():
     text = re.sub(r"/\*.*?\*/", "", (TOP / "include" / "cage.h").read_text(), flags=re.S)
-    bodies = {name: body for body, name in re.findall(r"typedef struct \w+ \{(.*?)\} (\w+);", text, flags=re.S)}
-    names = {"Ball": "cage_ball", "Shape": "cage_shape", "SceneStruct": "cage_scene", "PoseStruct": "cage_pose",
-             "Limits": "cage_limits", "ResultStruct": "cage_result", "Workers": "cage_workers",
-             "MarginStruct": "cage_margin", "Plan": "cage_plan", "SurveyResult": "cage_survey_result",
-             "AtlasStruct": "cage_atlas", "ClassStruct": "cage_class"}
+    bodies = {
+        name: body
+        for body, name in re.findall(r"typedef struct \w+ \{(.*?)\} (\w+);", text, flags=re.S)
+    }
+    names = {
+        "Ball": "cage_ball",
+        "Shape": "cage_shape",
+        "SceneStruct": "cage_scene",
+        "PoseStruct": "cage_pose",
+        "Limits": "cage_limits",
+        "ResultStruct": "cage_result",
+        "Workers": "cage_workers",
+        "MarginStruct": "cage_margin",
+        "Plan": "cage_plan",
+        "SurveyResult": "cage_survey_result",
+        "AtlasStruct": "cage_atlas",
+        "ClassStruct": "cage_class",
+    }
     for struct in _native.STRUCTS:
         body = re.sub(r"\(\*(\w+)\)\([^;]*\)", r"\1", bodies[names[struct.__name__]])
         body = re.sub(r"\([^()]*\)", "", body)
-        fields = [re.sub(r"\[\d+\]|[*\s]", "", field.split()[-1]) for line in body.split(";") if line.strip()
-                  for field in re.sub(r"^\s*(const\s+)?(unsigned\s+)?\w+", "", line.strip(), count=1).split(",")]
+        fields = [
+            re.sub(r"\[\d+\]|[*\s]", "", field.split()[-1])
+            for line in body.split(";")
+            if line.strip()
+            for field in re.sub(
+                r"^\s*(const\s+)?(unsigned\s+)?\w+", "", line.strip(), count=1
+            ).split(",")
+        ]
         assert fields == [name for name, *_ in struct._fields_], struct.__name__
 
 

@@ -39,7 +39,11 @@ def pixels(ax):
 def test_a_scene_has_its_balls_where_they_are():
     at = pixels(plot.scene(Scene(DISC, FINGERS), start=(0.0, 0.0, 0.0), goal=(0.05, 0.05, 0.0)))
     blue, grey, white = at(-0.03, 0), at(0.07, 0), at(-0.05, -0.05)
-    assert blue[2] > blue[0] + 50 and max(grey) - min(grey) < 3 < 255 - grey[0] and white == (255, 255, 255)
+    assert (
+        blue[2] > blue[0] + 50
+        and max(grey) - min(grey) < 3 < 255 - grey[0]
+        and white == (255, 255, 255)
+    )
     orange = at(0.06, 0.06)
     assert orange[0] > orange[2] + 80
 
@@ -50,12 +54,14 @@ def test_slices_colour_what_is_free():
     xs = ys = np.linspace(-0.15, 0.15, 61)
     classes = plot.classes_at(atlas, xs, ys, 0.3)
     assert classes[0, 0] == 0 and classes[30, 44] == NO_CLASS  # far away; at a finger
-    assert classes[30, 30] > 0                                  # the cage
+    assert classes[30, 30] > 0  # the cage
     axes = plot.slices(scene, atlas, (0.0, 0.3), points=60)
     image = axes[1].images[0].get_array()
     assert len(np.unique(image.reshape(-1, 3), axis=0)) == 3
     ax = plot.graph(scene, atlas, angles=8, points=40)
-    assert len(ax.collections) == 16 and len(ax.lines) == 16  # the outside and the cage, at 8 angles each
+    assert (
+        len(ax.collections) == 16 and len(ax.lines) == 16
+    )  # the outside and the cage, at 8 angles each
 
 
 def test_a_path_is_drawn_from_start_to_far_away():
@@ -77,21 +83,35 @@ def test_the_animation_moves_the_object_along_the_path(dim, tmp_path):
     if dim == 2:
         scene, start = Scene(DISC, FINGERS[:3]), (0, 0, 0)
     else:
-        scene, start = Scene([[0, 0, 0, 0.04]], np.c_[FINGERS[:3, :2], np.zeros(3), FINGERS[:3, 2]]), np.eye(4)
+        scene, start = (
+            Scene([[0, 0, 0, 0.04]], np.c_[FINGERS[:3, :2], np.zeros(3), FINGERS[:3, 2]]),
+            np.eye(4),
+        )
     answer = scene.prove(start)
     assert answer.verdict is Verdict.FREE
     figure = view.figure(scene, answer, frames=12)
     assert len(figure.frames) >= 12
-    middles = [np.array([np.nanmean([np.nanmin(frame.data[0][axis]), np.nanmax(frame.data[0][axis])])
-                         for axis in "xyz"[:dim]]) for frame in figure.frames]
-    assert np.allclose(middles, answer.path.frames(12).x, atol=2e-3)  # the object is one ball at its origin
+    middles = [
+        np.array(
+            [
+                np.nanmean([np.nanmin(frame.data[0][axis]), np.nanmax(frame.data[0][axis])])
+                for axis in "xyz"[:dim]
+            ]
+        )
+        for frame in figure.frames
+    ]
+    assert np.allclose(
+        middles, answer.path.frames(12).x, atol=2e-3
+    )  # the object is one ball at its origin
     assert np.linalg.norm(middles[-1] - middles[0]) > 0.03
     view.write_html(tmp_path / "a.html", scene, answer)
     page = (tmp_path / "a.html").read_text()
-    assert not re.search(r'<script[^>]+src=', page) and "FREE" in page  # it needs no network
+    assert not re.search(r"<script[^>]+src=", page) and "FREE" in page  # it needs no network
     assert json.dumps("play") in page
 
 
 def test_pictures_of_balls_inside_only():
-    figure = view.figure(Scene(Balls([[0, 0, 0, 1]], "inner"), np.array([[3.0, 0, 0, 1]])), start=np.eye(4))
+    figure = view.figure(
+        Scene(Balls([[0, 0, 0, 1]], "inner"), np.array([[3.0, 0, 0, 1]])), start=np.eye(4)
+    )
     assert len(figure.data) == 2

@@ -16,6 +16,8 @@ def test_readme(tmp_path):
     blocks = re.findall(r"```python\n(.*?)```\s*```text\n(.*?)```", PLACE.read_text(), flags=re.S)
     assert blocks
     for program, printed in blocks:
-        done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True)
+        done = subprocess.run(
+            [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True
+        )
         assert done.returncode == 0, done.stderr
         assert done.stdout == printed

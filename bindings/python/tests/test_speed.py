@@ -1,4 +1,4 @@
-"""What Python adds to C: less than 100 us to a proof, less than 1.3 times to 100 000 questions of an atlas."""
+"""What Python adds to C: below 100 us to a proof, below 1.3 times to 100 000 questions."""
 
 import ctypes
 import time
@@ -28,8 +28,15 @@ def test_overhead_of_a_proof():
     start = proof.start.ctypes.data
 
     def in_c():
-        lib.cage_prove_begin(ctypes.byref(handle), ctypes.byref(proof.grid.struct), start, None,
-                             ctypes.byref(proof.limits), block.ctypes.data, len(block))
+        lib.cage_prove_begin(
+            ctypes.byref(handle),
+            ctypes.byref(proof.grid.struct),
+            start,
+            None,
+            ctypes.byref(proof.limits),
+            block.ctypes.data,
+            len(block),
+        )
         assert lib.cage_prove_run(handle, 1 << 40) == 1
 
     alone = best(in_c, 15, 100)
@@ -45,7 +52,9 @@ def test_an_atlas_is_asked_at_the_speed_of_c():
     rows, out = atlas._rows(poses), np.empty(len(poses), dtype=np.int32)
 
     def in_c():
-        _native.lib.cagepy_ask_many(ctypes.byref(atlas._struct), rows.ctypes.data, None, len(rows), out.ctypes.data)
+        _native.lib.cagepy_ask_many(
+            ctypes.byref(atlas._struct), rows.ctypes.data, None, len(rows), out.ctypes.data
+        )
 
     alone = best(in_c, 7, 1)
     whole = best(lambda: atlas.query(poses), 7, 1)

@@ -21,27 +21,48 @@ MESHES = {".stl", ".obj", ".ply", ".off", ".glb", ".3mf"}
 def parser() -> argparse.ArgumentParser:
     """The options."""
     made = argparse.ArgumentParser(
-        prog="python -m libcage", description="Prove that an object is caged, or that no path joins two "
-        "poses, or find the path. A file is a closed mesh (STL, OBJ, PLY, OFF, ...), for which balls "
-        "are made, or balls (xyzr, npy, json, yml, urdf, srdf, sph). Metres and radians.")
+        prog="python -m libcage",
+        description="Prove that an object is caged, or that no path joins two "
+        "poses, or find the path. A file is a closed mesh (STL, OBJ, PLY, OFF, ...), for which "
+        "balls are made, or balls (xyzr, npy, json, yml, urdf, srdf, sph). Metres and radians.",
+    )
     made.add_argument("object", help="the object's file, in its own frame")
-    made.add_argument("obstacles", nargs="+", help="the obstacles' files, in the world; of one kind")
-    made.add_argument("--start", required=True, metavar="POSE",
-                      help="x,y,theta in the plane; in space x,y,z or x,y,z,qw,qx,qy,qz")
+    made.add_argument(
+        "obstacles", nargs="+", help="the obstacles' files, in the world; of one kind"
+    )
+    made.add_argument(
+        "--start",
+        required=True,
+        metavar="POSE",
+        help="x,y,theta in the plane; in space x,y,z or x,y,z,qw,qx,qy,qz",
+    )
     made.add_argument("--goal", metavar="POSE", help="without it: can the object leave?")
-    made.add_argument("--scale", type=float, default=1.0, help="metres in a unit of length of meshes: "
-                      "0.001 for millimetres. Files of balls are taken as they are")
+    made.add_argument(
+        "--scale",
+        type=float,
+        default=1.0,
+        help="metres in a unit of length of meshes: "
+        "0.001 for millimetres. Files of balls are taken as they are",
+    )
     made.add_argument("--balls", type=int, default=100, help="inner balls for a mesh, at most")
-    made.add_argument("--outer-tolerance", type=float, metavar="M",
-                      help="how far outer balls may reach beyond a mesh (default: a twentieth of its size)")
+    made.add_argument(
+        "--outer-tolerance",
+        type=float,
+        metavar="M",
+        help="how far outer balls may reach beyond a mesh (default: a twentieth of its size)",
+    )
     made.add_argument("--kind", choices=KINDS, help="what the balls in files are of the solid")
     made.add_argument("--link", help="the link to take of the object's file, where it has several")
-    made.add_argument("--insist", action="store_true", help="ask about balls that prove nothing of a solid")
+    made.add_argument(
+        "--insist", action="store_true", help="ask about balls that prove nothing of a solid"
+    )
     made.add_argument("--side", choices=("both", "inner", "outer"), default="both")
     made.add_argument("--max-cells", type=int)
     made.add_argument("--max-level", type=int)
     made.add_argument("--threads", type=int)
-    made.add_argument("--margin", type=int, metavar="N", help="find the margin too, by N bisections")
+    made.add_argument(
+        "--margin", type=int, metavar="N", help="find the margin too, by N bisections"
+    )
     made.add_argument("--html", metavar="FILE", help="write an interactive picture")
     made.add_argument("--png", metavar="FILE", help="in the plane: write a picture")
     made.add_argument("--json", action="store_true", help="print one JSON object")
@@ -98,7 +119,9 @@ def read_pose(text: str, dim: int) -> Any:
         return tuple(values)
     if dim == 3 and len(values) in (3, 7):
         return poses.from_wxyz(values[:3], values[3:] or [1, 0, 0, 0])
-    raise InputError(f"{text!r} is no pose: x,y,theta in the plane; x,y,z or x,y,z,qw,qx,qy,qz in space")
+    raise InputError(
+        f"{text!r} is no pose: x,y,theta in the plane; x,y,z or x,y,z,qw,qx,qy,qz in space"
+    )
 
 
 def run(given: argparse.Namespace) -> None:
@@ -111,8 +134,14 @@ def run(given: argparse.Namespace) -> None:
     start = read_pose(given.start, scene.dim)
     goal = None if given.goal is None else read_pose(given.goal, scene.dim)
     limits = {"max_cells": given.max_cells, "max_level": given.max_level, "insist": given.insist}
-    answer = scene.prove(start, goal, side=given.side, threads=given.threads,
-                         progress=not given.quiet and sys.stderr.isatty(), **limits)
+    answer = scene.prove(
+        start,
+        goal,
+        side=given.side,
+        threads=given.threads,
+        progress=not given.quiet and sys.stderr.isatty(),
+        **limits,
+    )
     margin = None
     if given.margin is not None:
         margin = scene.margin(start, goal, rounds=given.margin, **limits)

@@ -29,8 +29,12 @@ class Ball(ctypes.Structure):
 class Shape(ctypes.Structure):
     """cage_shape: pointers into arrays that the caller keeps alive."""
 
-    _fields_ = [("inner", c_void_p), ("outer", c_void_p),
-                ("inner_count", c_int32), ("outer_count", c_int32)]
+    _fields_ = [
+        ("inner", c_void_p),
+        ("outer", c_void_p),
+        ("inner_count", c_int32),
+        ("outer_count", c_int32),
+    ]
 
 
 class SceneStruct(ctypes.Structure):
@@ -48,51 +52,91 @@ class PoseStruct(ctypes.Structure):
 class Limits(ctypes.Structure):
     """cage_limits."""
 
-    _fields_ = [("side", c_int32), ("start_level", c_int32), ("max_level", c_int32),
-                ("max_cells", c_int32)]
+    _fields_ = [
+        ("side", c_int32),
+        ("start_level", c_int32),
+        ("max_level", c_int32),
+        ("max_cells", c_int32),
+    ]
 
 
 class ResultStruct(ctypes.Structure):
     """cage_result; `path` points into the proof's block."""
 
     _fields_ = [
-        ("verdict", c_int32), ("reason", c_int32), ("level", c_int32), ("cells", c_int32),
-        ("slices", c_int32 * 2), ("gluings", c_int32 * 2), ("mixtures", c_int32 * 2),
-        ("reached", c_int32 * 2), ("balls", c_int64 * 2), ("inserted", c_int64 * 2),
-        ("steps", c_int64), ("peak_bytes", c_uint64), ("needed_bytes", c_uint64),
-        ("pivot", c_int32 * 3), ("path_count", c_int32), ("path", POINTER(PoseStruct)),
+        ("verdict", c_int32),
+        ("reason", c_int32),
+        ("level", c_int32),
+        ("cells", c_int32),
+        ("slices", c_int32 * 2),
+        ("gluings", c_int32 * 2),
+        ("mixtures", c_int32 * 2),
+        ("reached", c_int32 * 2),
+        ("balls", c_int64 * 2),
+        ("inserted", c_int64 * 2),
+        ("steps", c_int64),
+        ("peak_bytes", c_uint64),
+        ("needed_bytes", c_uint64),
+        ("pivot", c_int32 * 3),
+        ("path_count", c_int32),
+        ("path", POINTER(PoseStruct)),
     ]
 
 
 class Workers(ctypes.Structure):
     """cage_workers, filled in by cagepy_threads_start."""
 
-    _fields_ = [("count", c_int32), ("run", c_void_p), ("context", c_void_p),
-                ("memory", c_void_p), ("bytes", c_size_t)]
+    _fields_ = [
+        ("count", c_int32),
+        ("run", c_void_p),
+        ("context", c_void_p),
+        ("memory", c_void_p),
+        ("bytes", c_size_t),
+    ]
 
 
 class MarginStruct(ctypes.Structure):
     """cage_margin."""
 
-    _fields_ = [("closed", c_int32), ("open", c_int32), ("proofs", c_int32), ("bounded", c_int32),
-                ("known", c_int32), ("pivot", c_int32 * 3), ("narrow", PoseStruct)]
+    _fields_ = [
+        ("closed", c_int32),
+        ("open", c_int32),
+        ("proofs", c_int32),
+        ("bounded", c_int32),
+        ("known", c_int32),
+        ("pivot", c_int32 * 3),
+        ("narrow", PoseStruct),
+    ]
 
 
 class Plan(ctypes.Structure):
     """cage_plan."""
 
-    _fields_ = [("side", c_int32), ("level", c_int32), ("max_cells", c_int32),
-                ("note", c_int32 * 2)]
+    _fields_ = [
+        ("side", c_int32),
+        ("level", c_int32),
+        ("max_cells", c_int32),
+        ("note", c_int32 * 2),
+    ]
 
 
 class SurveyResult(ctypes.Structure):
     """cage_survey_result."""
 
     _fields_ = [
-        ("level", c_int32), ("cells", c_int32), ("leaves", c_int32), ("slices", c_int32 * 2),
-        ("gluings", c_int32 * 2), ("mixtures", c_int32 * 2), ("classes", c_int32 * 2),
-        ("balls", c_int64 * 2), ("inserted", c_int64 * 2), ("steps", c_int64),
-        ("atlas_bytes", c_uint64), ("peak_bytes", c_uint64), ("needed_bytes", c_uint64),
+        ("level", c_int32),
+        ("cells", c_int32),
+        ("leaves", c_int32),
+        ("slices", c_int32 * 2),
+        ("gluings", c_int32 * 2),
+        ("mixtures", c_int32 * 2),
+        ("classes", c_int32 * 2),
+        ("balls", c_int64 * 2),
+        ("inserted", c_int64 * 2),
+        ("steps", c_int64),
+        ("atlas_bytes", c_uint64),
+        ("peak_bytes", c_uint64),
+        ("needed_bytes", c_uint64),
     ]
 
 
@@ -100,21 +144,45 @@ class AtlasStruct(ctypes.Structure):
     """cage_atlas; `byte` points at bytes that the caller keeps alive."""
 
     _fields_ = [
-        ("byte", c_void_p), ("words", c_int32), ("dim", c_int32), ("side", c_int32),
-        ("classes", c_int32 * 2), ("nodes", c_int32 * 2), ("leaves", c_int32),
-        ("pivot", c_int32 * 3), ("note", c_int32 * 2),
+        ("byte", c_void_p),
+        ("words", c_int32),
+        ("dim", c_int32),
+        ("side", c_int32),
+        ("classes", c_int32 * 2),
+        ("nodes", c_int32 * 2),
+        ("leaves", c_int32),
+        ("pivot", c_int32 * 3),
+        ("note", c_int32 * 2),
     ]
 
 
 class ClassStruct(ctypes.Structure):
     """cage_class."""
 
-    _fields_ = [("cells", c_int32), ("nodes", c_int32), ("low", c_int32 * 3),
-                ("high", c_int32 * 3), ("known", c_int32), ("pose", PoseStruct)]
+    _fields_ = [
+        ("cells", c_int32),
+        ("nodes", c_int32),
+        ("low", c_int32 * 3),
+        ("high", c_int32 * 3),
+        ("known", c_int32),
+        ("pose", PoseStruct),
+    ]
 
 
-STRUCTS = [Ball, Shape, SceneStruct, PoseStruct, Limits, ResultStruct, Workers, MarginStruct, Plan,
-           SurveyResult, AtlasStruct, ClassStruct]  # numbered as CAGE_STRUCT_... in cage.h
+STRUCTS = [
+    Ball,
+    Shape,
+    SceneStruct,
+    PoseStruct,
+    Limits,
+    ResultStruct,
+    Workers,
+    MarginStruct,
+    Plan,
+    SurveyResult,
+    AtlasStruct,
+    ClassStruct,
+]  # numbered as CAGE_STRUCT_... in cage.h
 
 _p = c_void_p  # any address: an array's, a ctypes.byref, or None
 
@@ -181,13 +249,17 @@ def prepare(library: Any) -> Any:
         if checked:
             function.errcheck = _raise_error
     if library.cage_abi() != ABI:
-        raise LibraryError(f"the libcage found has ABI {library.cage_abi()}, this package needs "
-                           f"{ABI}: reinstall the package")
+        raise LibraryError(
+            f"the libcage found has ABI {library.cage_abi()}, this package needs "
+            f"{ABI}: reinstall the package"
+        )
     for number, struct in enumerate(STRUCTS):
         size = library.cage_struct_size(number)
         if size != ctypes.sizeof(struct):
-            raise LibraryError(f"{struct.__name__} has {size} bytes in the libcage found and "
-                               f"{ctypes.sizeof(struct)} here: reinstall the package")
+            raise LibraryError(
+                f"{struct.__name__} has {size} bytes in the libcage found and "
+                f"{ctypes.sizeof(struct)} here: reinstall the package"
+            )
     if library.cage_struct_size(len(STRUCTS)) != 0:
         raise LibraryError("the libcage found knows more structs than this package: reinstall it")
     return library
@@ -198,8 +270,10 @@ def library_path() -> Path:
     name = "_libcage.dylib" if sys.platform == "darwin" else "_libcage.so"
     path = Path(__file__).with_name(name)
     if not path.is_file():
-        raise LibraryError(f"{path} is missing: install the package (pip install ./bindings/python)"
-                           " and import it from elsewhere than its sources")
+        raise LibraryError(
+            f"{path} is missing: install the package (pip install ./bindings/python)"
+            " and import it from elsewhere than its sources"
+        )
     return path
 
 

@@ -1,4 +1,4 @@
-"""The atlas: how the whole space of poses is connected, made once and asked for many poses at C speed."""
+"""The atlas: how all poses of a scene are connected, made once and asked many times."""
 
 from __future__ import annotations
 
@@ -14,7 +14,15 @@ from numpy.typing import NDArray
 
 from . import _native, grid as grids
 from .errors import AtlasError, InputError, OutOfMemoryError, PoseError
-from .poses import Ints, Pose, PoseLike, PosesLike, from_grid, pose as read_pose, poses as read_poses
+from .poses import (
+    Ints,
+    Pose,
+    PoseLike,
+    PosesLike,
+    from_grid,
+    pose as read_pose,
+    poses as read_poses,
+)
 from .poses import Poses, to_grid
 from .proof import MEMORY, Crew, reachable, run_all
 from .result import Verdict
@@ -27,7 +35,8 @@ NO_CLASS = _native.NO_CLASS
 
 @dataclass(frozen=True)
 class Class:
-    """A connected class of poses on one side. Class 0 is the outside's: low and high are zeros there.
+    """A connected class of poses on one side. Class 0 is the outside's: low and high are zeros
+    there.
 
     low, high: a box around all places of the pivot in it, metres. pose: one of its poses.
     """
@@ -41,7 +50,8 @@ class Class:
 
 
 class Atlas:
-    """An opened atlas: bytes that are read in place. Many threads may ask at once; it can be pickled.
+    """An opened atlas: bytes that are read in place. Many threads may ask at once; it can be
+    pickled.
 
     `about` says what its answers are about; `unit` is the grid's unit in metres.
     """
@@ -51,8 +61,9 @@ class Atlas:
         self._struct = _native.AtlasStruct()
         if not len(self._bytes):
             raise AtlasError("no bytes: this is not an atlas")
-        _native.lib.cage_atlas_open(ctypes.byref(self._struct),
-                                    ctypes.c_void_p(self._bytes.ctypes.data), len(self._bytes))
+        _native.lib.cage_atlas_open(
+            ctypes.byref(self._struct), ctypes.c_void_p(self._bytes.ctypes.data), len(self._bytes)
+        )
         unit: float = struct.unpack("=d", bytes(self._struct.note))[0]
         # The unit is the caller's note in the file. Python writes it negative where the balls
         # prove nothing about solids, which the command and older readers refuse.
@@ -60,8 +71,10 @@ class Atlas:
         try:
             self.unit = grids.check_unit(abs(unit))
         except InputError:
-            raise AtlasError("the atlas has no unit that is a power of two: it was made by other "
-                             "means, see make and the command cage atlas") from None
+            raise AtlasError(
+                "the atlas has no unit that is a power of two: it was made by other "
+                "means, see make and the command cage atlas"
+            ) from None
         self.dim = int(self._struct.dim)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -70,8 +83,11 @@ class Atlas:
     @property
     def about(self) -> str:
         """What the answers are about."""
-        return ("the balls only, not the solids that they stand for" if self.insisted else
-                "the solids, by the balls that it was made from")
+        return (
+            "the balls only, not the solids that they stand for"
+            if self.insisted
+            else "the solids, by the balls that it was made from"
+        )
 
     @property
     def sides(self) -> tuple[str, ...]:
@@ -92,7 +108,8 @@ class Atlas:
         return len(self._bytes)
 
     def __repr__(self) -> str:
-        return f"<Atlas: dim {self.dim}, {self.cells} cells, {len(self)} bytes, {' and '.join(self.sides)}>"
+        sides = " and ".join(self.sides)
+        return f"<Atlas: dim {self.dim}, {self.cells} cells, {len(self)} bytes, {sides}>"
 
     def to_bytes(self) -> bytes:
         """The atlas; the same bytes on every machine, and what the command cage query reads."""
@@ -111,7 +128,7 @@ class Atlas:
         with open(path, "rb") as file:
             return cls(file.read())
 
-    # ---- questions --------------------------------------------------------------------------------
+    # ---- questions -------------------------------------------------------------------------------
 
     def _rows(self, poses: PosesLike) -> Ints:
         return to_grid(read_poses(poses, self.dim), self.unit)
@@ -132,8 +149,13 @@ class Atlas:
             if len(ends) != len(rows):
                 raise InputError(f"{len(rows)} poses and {len(ends)} goals")
         out = np.empty(len(rows), dtype=np.int32)
-        _native.lib.cagepy_ask_many(ctypes.byref(self._struct), reachable(rows),
-                                    None if ends is None else reachable(ends), len(rows), reachable(out))
+        _native.lib.cagepy_ask_many(
+            ctypes.byref(self._struct),
+            reachable(rows),
+            None if ends is None else reachable(ends),
+            len(rows),
+            reachable(out),
+        )
         return _checked(out, 0)
 
     def ask(self, pose: PoseLike, goal: PoseLike | None = None) -> Verdict:
@@ -145,8 +167,9 @@ class Atlas:
         """The class of each pose on one side; NO_CLASS where balls cover it."""
         rows = self._rows(poses)
         out = np.empty(len(rows), dtype=np.int32)
-        _native.lib.cagepy_locate_many(ctypes.byref(self._struct), reachable(rows), len(rows),
-                                       self._side(side), reachable(out))
+        _native.lib.cagepy_locate_many(
+            ctypes.byref(self._struct), reachable(rows), len(rows), self._side(side), reachable(out)
+        )
         return _checked(out, NO_CLASS)
 
     def _side(self, side: str) -> int:
@@ -160,13 +183,16 @@ class Atlas:
         made = []
         for index in range(self._struct.classes[number - 1]):
             raw = _native.ClassStruct()
-            _native.lib.cage_atlas_class(ctypes.byref(self._struct), number, index, ctypes.byref(raw))
+            _native.lib.cage_atlas_class(
+                ctypes.byref(self._struct), number, index, ctypes.byref(raw)
+            )
             pose = None
             if raw.known:
                 row = np.array([[*raw.pose.x, *raw.pose.q]], dtype=np.int32)
                 pose = from_grid(row, self.dim, self.unit, tuple(self._struct.pivot))[0]
-            low, high = (tuple(value * self.unit for value in box[: self.dim])
-                         for box in (raw.low, raw.high))
+            low, high = (
+                tuple(value * self.unit for value in box[: self.dim]) for box in (raw.low, raw.high)
+            )
             made.append(Class(index, raw.cells, raw.nodes, low, high, pose))
         return made
 
@@ -184,9 +210,18 @@ def _checked(out: Ints, allowed: int) -> Ints:
     return out
 
 
-def make(scene: Scene, level: int | None = None, *, budget: int = 0, side: str = "both",
-         memory: int | None = None, threads: int | None = None, progress: bool = False,
-         insist: bool = False, far: float = 0.0) -> Atlas:
+def make(
+    scene: Scene,
+    level: int | None = None,
+    *,
+    budget: int = 0,
+    side: str = "both",
+    memory: int | None = None,
+    threads: int | None = None,
+    progress: bool = False,
+    insist: bool = False,
+    far: float = 0.0,
+) -> Atlas:
     """Make the atlas of a scene.
 
     level: of the cells of rotations to begin with (None: chosen from the balls).
@@ -197,7 +232,9 @@ def make(scene: Scene, level: int | None = None, *, budget: int = 0, side: str =
     """
     chosen, use, _, note = scene._permit(side, insist)
     if budget and use != _native.BOTH:
-        raise InputError("budget: cells are cut where the two sides disagree, and one is missing. " + note)
+        raise InputError(
+            "budget: cells are cut where the two sides disagree, and one is missing. " + note
+        )
     made = chosen.grid(max(far, scene._reach, scene._object_reach), 4.0)
     plan = _native.Plan()
     _native.lib.cage_plan_default(ctypes.byref(plan))
@@ -208,8 +245,9 @@ def make(scene: Scene, level: int | None = None, *, budget: int = 0, side: str =
     most = MEMORY if memory is None else int(memory)
     size = int(_native.lib.cage_survey_size(ctypes.byref(made.struct), ctypes.byref(plan)))
     if size == 0:
-        raise InputError(f"level of {level}: 0 to {_native.LEVEL_MAX[scene.dim]}; budget of {budget}: "
-                         "0 to 2**24")
+        raise InputError(
+            f"level of {level}: 0 to {_native.LEVEL_MAX[scene.dim]}; budget of {budget}: 0 to 2**24"
+        )
     size = min(max(size, 64 << 20), most)
     pairs = len(made.arrays[1]) * len(made.arrays[3])
     if not progress:
@@ -220,13 +258,20 @@ def make(scene: Scene, level: int | None = None, *, budget: int = 0, side: str =
         return Atlas(_survey(made, plan, size, most, Crew(threads, pairs), bar))
 
 
-def _survey(made: grids.Grid, plan: _native.Plan, size: int, most: int, crew: Crew, bar: Any) -> bytes:
+def _survey(
+    made: grids.Grid, plan: _native.Plan, size: int, most: int, crew: Crew, bar: Any
+) -> bytes:
     lib, sides = _native.lib, bin(plan.side).count("1")
     while True:
         block = np.empty(size, dtype=np.uint8)
         handle = ctypes.c_void_p()
-        lib.cage_survey_begin(ctypes.byref(handle), ctypes.byref(made.struct), ctypes.byref(plan),
-                              ctypes.c_void_p(block.ctypes.data), size)
+        lib.cage_survey_begin(
+            ctypes.byref(handle),
+            ctypes.byref(made.struct),
+            ctypes.byref(plan),
+            ctypes.c_void_p(block.ctypes.data),
+            size,
+        )
 
         def step(count: int, workers: Any, handle: ctypes.c_void_p = handle) -> int:
             state: int = lib.cage_survey_run_with(handle, count, workers)
@@ -243,13 +288,18 @@ def _survey(made: grids.Grid, plan: _native.Plan, size: int, most: int, crew: Cr
         raw = lib.cage_survey_result_of(handle).contents
         if state == 1:
             out = np.empty(int(raw.atlas_bytes), dtype=np.uint8)
-            if lib.cage_survey_atlas(handle, ctypes.c_void_p(out.ctypes.data), len(out)) != len(out):
+            if lib.cage_survey_atlas(handle, ctypes.c_void_p(out.ctypes.data), len(out)) != len(
+                out
+            ):
                 raise AtlasError("the atlas could not be written. This is a bug; please report it")
             return out.tobytes()
         if state != _native.OUT_OF_MEMORY:
             raise _native.failure(state, "cage_survey_run")
         needed = int(raw.needed_bytes)
         if needed > most or size >= most:
-            raise OutOfMemoryError(f"the atlas needs a block of {needed} bytes or more, and {most} are "
-                                   "allowed: pass memory=..., or a lower level", needed=needed)
+            raise OutOfMemoryError(
+                f"the atlas needs a block of {needed} bytes or more, and {most} are "
+                "allowed: pass memory=..., or a lower level",
+                needed=needed,
+            )
         size = min(max(needed, 2 * size), most)

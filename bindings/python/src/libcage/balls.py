@@ -1,4 +1,4 @@
-"""Sets of balls, what they are of the solid (inner, outer, exact, unknown), and their way to the grid."""
+"""Sets of balls, their kind (inner, outer, exact, unknown), and their way to the grid."""
 
 from __future__ import annotations
 
@@ -73,8 +73,10 @@ def _checked(rows: Any) -> NDArray[np.float64]:
     """A read-only copy of the rows as float64, without rounding, or an error."""
     array = np.asarray(rows)
     if array.ndim != 2 or array.shape[1] not in (3, 4):
-        raise InputError(f"balls are rows x y r or x y z r: an array of shape (n, 3) or (n, 4), not "
-                         f"{array.shape}; no balls at all: numpy.zeros((0, 3))")
+        raise InputError(
+            f"balls are rows x y r or x y z r: an array of shape (n, 3) or (n, 4), not "
+            f"{array.shape}; no balls at all: numpy.zeros((0, 3))"
+        )
     if array.dtype.kind not in "fiu":
         raise InputError(f"balls are real numbers, not {array.dtype}")
     with np.errstate(over="ignore", invalid="ignore"):
@@ -82,15 +84,19 @@ def _checked(rows: Any) -> NDArray[np.float64]:
     if array.dtype.itemsize >= 8 and array.dtype != np.float64:
         wide = result.astype(array.dtype) if (abs(result) < 2.0**62).all() else None
         if wide is None or (wide != array).any():
-            raise InputError(f"numbers of type {array.dtype} that float64 does not hold exactly; round "
-                             "them yourself, inner balls inward and outer balls outward")
+            raise InputError(
+                f"numbers of type {array.dtype} that float64 does not hold exactly; round "
+                "them yourself, inner balls inward and outer balls outward"
+            )
     if not np.isfinite(result).all():
         raise InputError(f"ball {int(np.argmin(np.isfinite(result).all(axis=1)))}: NaN or infinite")
     if (abs(result) > LARGEST).any():
         raise InputError(f"a length of more than {LARGEST:g} metres")
     if (result[:, -1] < 0).any():
-        raise InputError(f"ball {int(np.argmax(result[:, -1] < 0))}: the radius is negative; files of "
-                         "cuRobo mark balls that are switched off like that: leave them out")
+        raise InputError(
+            f"ball {int(np.argmax(result[:, -1] < 0))}: the radius is negative; files of "
+            "cuRobo mark balls that are switched off like that: leave them out"
+        )
     result.setflags(write=False)
     return result
 
@@ -150,7 +156,7 @@ def solid(value: Any) -> Solid:
     return Solid(balls, balls)
 
 
-# ---- the grid -------------------------------------------------------------------------------------
+# ---- the grid ------------------------------------------------------------------------------------
 
 
 def to_grid(balls: Balls, unit: float) -> tuple[NDArray[np.int32], NDArray[np.int32]]:

@@ -65,7 +65,11 @@ ADVICE = {
 }
 
 CLASSES: dict[int, type[CageError]] = {
-    -3: GridError, -4: InputError, -5: PoseError, -6: OutOfMemoryError, -7: AtlasError,
+    -3: GridError,
+    -4: InputError,
+    -5: PoseError,
+    -6: OutOfMemoryError,
+    -7: AtlasError,
 }
 
 

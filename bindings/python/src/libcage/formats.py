@@ -1,8 +1,8 @@
 """Files of balls: xyzr, npy, own JSON and C headers, and the sphere models that robot tools write.
 
-A file rarely says what its balls are of the solid, so they come as kind `unknown` unless the file is one
-that libcage wrote, or you say so: read(path, kind="outer"). Lengths are taken as they are, in metres.
-"""
+A file rarely says what its balls are of the solid, so they come as kind `unknown` unless the file
+is one that libcage wrote, or you say so: read(path, kind="outer"). Lengths are taken as they are,
+in metres."""
 
 from __future__ import annotations
 
@@ -28,24 +28,35 @@ FORMAT = "libcage balls"
 def read(path: PathLike, kind: str | None = None, link: str | None = None) -> Balls:
     """The balls of a file, of one link where it has several. kind: what they are, if you know.
 
-    xyzr, txt (rows x y r or x y z r); npy; json (of libcage, or of foam); yml, yaml (cuRobo); urdf with
-    spheres; srdf; sph (sphere trees: the leaves).
-    """
+    xyzr, txt (rows x y r or x y z r); npy; json (of libcage, or of foam); yml, yaml (cuRobo); urdf
+    with spheres; srdf; sph (sphere trees: the leaves)."""
     links = read_links(path, kind)
     if link is not None:
         if link not in links:
             raise InputError(f"{path}: no link {link!r}; there are {', '.join(sorted(links))}")
         return links[link]
     if len(links) != 1:
-        raise InputError(f"{path}: {len(links)} links, say which: link=... of {', '.join(sorted(links))}")
+        raise InputError(
+            f"{path}: {len(links)} links, say which: link=... of {', '.join(sorted(links))}"
+        )
     return next(iter(links.values()))
 
 
 def read_links(path: PathLike, kind: str | None = None) -> dict[str, Balls]:
-    """The balls of each link of a file, in the link's frame. A file without links has one, named ''."""
+    """The balls of each link of a file, in the link's frame. A file without links has one, named
+    ''."""
     place = Path(path)
-    readers = {".npy": _npy, ".json": _json, ".yml": _curobo, ".yaml": _curobo, ".urdf": _urdf,
-               ".srdf": _srdf, ".sph": _sph, ".xyzr": _xyzr, ".txt": _xyzr}
+    readers = {
+        ".npy": _npy,
+        ".json": _json,
+        ".yml": _curobo,
+        ".yaml": _curobo,
+        ".urdf": _urdf,
+        ".srdf": _srdf,
+        ".sph": _sph,
+        ".xyzr": _xyzr,
+        ".txt": _xyzr,
+    }
     reader = readers.get(place.suffix.lower())
     if reader is None:
         raise InputError(f"{place}: unknown format; known are {', '.join(readers)}")
@@ -93,7 +104,9 @@ def _xyzr(path: Path) -> Found:
         if not words:
             continue
         if len(words) not in (3, 4) or (rows and len(words) != len(rows[0])):
-            raise InputError(f"{path}:{number}: {len(words)} columns; a ball is \"x y r\" or \"x y z r\"")
+            raise InputError(
+                f'{path}:{number}: {len(words)} columns; a ball is "x y r" or "x y z r"'
+            )
         try:
             rows.append([float(word) for word in words])
         except ValueError:
@@ -106,12 +119,17 @@ def _npy(path: Path) -> Found:
 
 
 def _json(path: Path) -> Found:
-    """Own files, and foam's: a list of levels, of which the last is the finest, each with `spheres`."""
+    """Own files, and foam's: a list of levels, of which the last is the finest, each with
+    `spheres`."""
     raw = json.loads(path.read_text(encoding="utf-8"))
     if isinstance(raw, dict) and raw.get("format") == FORMAT:
         yield "", np.array(raw["balls"], dtype=float).reshape(-1, int(raw["dim"]) + 1), raw["kind"]
         return
-    if isinstance(raw, list) and raw and all(isinstance(level, dict) and "spheres" in level for level in raw):
+    if (
+        isinstance(raw, list)
+        and raw
+        and all(isinstance(level, dict) and "spheres" in level for level in raw)
+    ):
         raw = raw[-1]
     if isinstance(raw, dict) and "spheres" in raw:
         yield "", _spheres(raw["spheres"], "origin"), "unknown"
@@ -119,14 +137,20 @@ def _json(path: Path) -> Found:
         yield "", _spheres(raw, "origin"), "unknown"
     elif isinstance(raw, dict):
         for name, value in raw.items():
-            yield name, _spheres(value["spheres"] if isinstance(value, dict) else value, "origin"), "unknown"
+            yield (
+                name,
+                _spheres(value["spheres"] if isinstance(value, dict) else value, "origin"),
+                "unknown",
+            )
 
 
 def _spheres(items: Any, centre: str) -> list[list[float]]:
     if not isinstance(items, list) or not all(isinstance(item, dict) for item in items):
         raise InputError(f"a list of spheres with {centre} and radius is wanted")
-    return [_triple(item.get(centre, item.get("center")), centre) + [_number(item.get("radius"))]
-            for item in items]
+    return [
+        _triple(item.get(centre, item.get("center")), centre) + [_number(item.get("radius"))]
+        for item in items
+    ]
 
 
 def _curobo(path: Path) -> Found:
@@ -184,8 +208,10 @@ def _srdf(path: Path) -> Found:
     """link_sphere_approximation of MoveIt. Links without spheres of positive radius are left out:
     that is how it says that a link is not checked."""
     for link in _xml(path).iter("link_sphere_approximation"):
-        rows = [_triple(sphere.get("center"), "center") + [_number(sphere.get("radius"))]
-                for sphere in link.findall("sphere")]
+        rows = [
+            _triple(sphere.get("center"), "center") + [_number(sphere.get("radius"))]
+            for sphere in link.findall("sphere")
+        ]
         rows = [row for row in rows if row[3] > 0]
         if rows:
             yield link.get("link", ""), rows, "unknown"
@@ -197,21 +223,26 @@ def _sph(path: Path) -> Found:
     lines = path.read_text(encoding="utf-8").splitlines()
     try:
         levels, degree = (int(word) for word in lines[0].split()[:2])
-        total = sum(degree**level for level in range(levels)) if levels < 12 and degree < 1000 else -1
+        total = (
+            sum(degree**level for level in range(levels)) if levels < 12 and degree < 1000 else -1
+        )
         if levels < 1 or degree < 1 or not 0 < total < 10_000_000:
             raise ValueError
-        nodes = [[float(word) for word in line.split()[:4]] for line in lines[1:total + 1]]
+        nodes = [[float(word) for word in line.split()[:4]] for line in lines[1 : total + 1]]
     except (ValueError, IndexError):
         raise InputError(f"{path}: not a sphere tree") from None
     if len(nodes) != total or any(len(node) != 4 for node in nodes):
         raise InputError(f"{path}: {total} nodes are announced, and not there")
     there = [node[3] > 0 for node in nodes]
-    leaves = [node for i, node in enumerate(nodes)
-              if there[i] and not any(there[degree * i + 1: degree * i + degree + 1])]
+    leaves = [
+        node
+        for i, node in enumerate(nodes)
+        if there[i] and not any(there[degree * i + 1 : degree * i + degree + 1])
+    ]
     yield "", leaves, "unknown"
 
 
-# ---- writing --------------------------------------------------------------------------------------
+# ---- writing -------------------------------------------------------------------------------------
 
 
 def write(path: PathLike, balls: Balls, unit: float = 2.0**-20, name: str = "balls") -> None:
@@ -225,7 +256,10 @@ def write(path: PathLike, balls: Balls, unit: float = 2.0**-20, name: str = "bal
     if suffix == ".npy":
         np.save(place, balls.rows, allow_pickle=False)
     elif suffix == ".xyzr":
-        lines = [f"# kind: {balls.kind}", *(" ".join(map(repr, row)) for row in balls.rows.tolist())]
+        lines = [
+            f"# kind: {balls.kind}",
+            *(" ".join(map(repr, row)) for row in balls.rows.tolist()),
+        ]
         place.write_text("\n".join(lines) + "\n", encoding="utf-8")
     elif suffix == ".json":
         raw = {"format": FORMAT, "dim": balls.dim, "kind": balls.kind, "balls": balls.rows.tolist()}
@@ -242,11 +276,16 @@ def _header(balls: Balls, unit: float, name: str) -> str:
     if not len(balls):
         raise InputError("C has no arrays without elements")
     if balls.kind == "unknown":
-        raise InputError("balls of unknown kind: say what they are, balls.as_kind('inner') or 'outer'")
+        raise InputError(
+            "balls of unknown kind: say what they are, balls.as_kind('inner') or 'outer'"
+        )
     if abs(balls.rows).max() / unit > _native.REACH[balls.dim]:
         raise InputError(f"the balls do not fit the grid at a unit of {unit:g}; use a larger one")
-    lines = [f"/* {len(balls)} {balls.kind} balls in grid units of {unit!r} metres, written by libcage. */",
-             "#include \"cage.h\"", ""]
+    lines = [
+        f"/* {len(balls)} {balls.kind} balls in units of {unit!r} metres, written by libcage. */",
+        '#include "cage.h"',
+        "",
+    ]
     inner, outer = to_grid(balls, unit)
     for side, rows in (("inner", inner), ("outer", outer)):
         if balls.kind in (side, "exact") and len(rows):

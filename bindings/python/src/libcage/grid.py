@@ -1,4 +1,4 @@
-"""A scene on the integer grid: the unit, the arrays that the C library reads, and who keeps them alive."""
+"""A scene on the integer grid: its unit, the arrays that C reads, and who keeps them alive."""
 
 from __future__ import annotations
 
@@ -26,8 +26,10 @@ class Grid:
         self.arrays = arrays  # object inner, object outer, obstacles inner, obstacles outer
         for array in arrays:
             array.setflags(write=False)
-        shapes = [_native.Shape(inner.ctypes.data, outer.ctypes.data, len(inner), len(outer))
-                  for inner, outer in (arrays[:2], arrays[2:])]
+        shapes = [
+            _native.Shape(inner.ctypes.data, outer.ctypes.data, len(inner), len(outer))
+            for inner, outer in (arrays[:2], arrays[2:])
+        ]
         self.struct = _native.SceneStruct(shapes[0], shapes[1], dim)
         self.pairs = len(arrays[0]) * len(arrays[2])
 
@@ -62,7 +64,9 @@ def reach(solid: Solid) -> float:
     farthest = 0.0
     for balls in {id(b): b for b in (solid.inner, solid.outer) if b is not None}.values():
         if len(balls):
-            farthest = max(farthest, float((np.linalg.norm(balls.centres, axis=1) + balls.radii).max()))
+            farthest = max(
+                farthest, float((np.linalg.norm(balls.centres, axis=1) + balls.radii).max())
+            )
     return farthest
 
 
@@ -86,8 +90,10 @@ def check_unit(unit: float) -> float:
     """A unit must be a power of two: then lengths are divided by it exactly."""
     unit = float(unit)
     if not (unit > 0 and math.isfinite(unit) and math.frexp(unit)[0] == 0.5):
-        raise GridError(f"the unit must be a power of two (in metres), not {unit!r}: 2.0**-20 is about "
-                        "a micrometre")
+        raise GridError(
+            f"the unit must be a power of two (in metres), not {unit!r}: 2.0**-20 is about "
+            "a micrometre"
+        )
     if not SMALLEST <= unit <= LARGEST:
         raise GridError(f"a unit of {unit:g} metres is not supported")
     return unit

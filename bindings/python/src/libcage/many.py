@@ -1,4 +1,4 @@
-"""Many questions on any executor: the pool of this machine, or a cluster. The answers are the same bytes.
+"""Many questions on any executor, a pool or a cluster: the answers are the same bytes.
 
 A job is a pure function of its question, so it may be run again, or twice: workers that die are no
 harm. Answers can be kept in a folder, each under the hash of all that it depends on, and are not
@@ -29,7 +29,8 @@ ExecutorLike = Union[Executor, Callable[[], Executor]]
 
 @dataclass(frozen=True)
 class Question:
-    """A scene, a start, perhaps a goal, and options of Scene.prove (side, max_level, max_cells, ...)."""
+    """A scene, a start, perhaps a goal, and options of Scene.prove (side, max_level, max_cells,
+    ...)."""
 
     scene: Scene
     start: PoseLike
@@ -37,20 +38,36 @@ class Question:
     options: dict[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        wrong = set(self.options) - {"side", "start_level", "max_level", "max_cells", "memory", "insist"}
+        wrong = set(self.options) - {
+            "side",
+            "start_level",
+            "max_level",
+            "max_cells",
+            "memory",
+            "insist",
+        }
         if wrong:
             raise InputError(f"no option of a question: {', '.join(sorted(wrong))}")
 
     def key(self) -> str:
         """A hash of everything that the answer depends on, the library itself included."""
-        scene, use, about, note = self.scene._permit(self.options.get("side", "both"),
-                                                     self.options.get("insist", False))
+        scene, use, about, note = self.scene._permit(
+            self.options.get("side", "both"), self.options.get("insist", False)
+        )
         made, start, goal = scene._question(self.start, self.goal)
-        limits = scene._limits(use, *(self.options.get(name) for name in
-                                      ("start_level", "max_level", "max_cells")))
-        parts = [_library(), about.encode(), note.encode(), repr(made.unit).encode(), made.bytes(),
-                 start.astype("<i4").tobytes(), b"" if goal is None else goal.astype("<i4").tobytes(),
-                 bytes(limits)]
+        limits = scene._limits(
+            use, *(self.options.get(name) for name in ("start_level", "max_level", "max_cells"))
+        )
+        parts = [
+            _library(),
+            about.encode(),
+            note.encode(),
+            repr(made.unit).encode(),
+            made.bytes(),
+            start.astype("<i4").tobytes(),
+            b"" if goal is None else goal.astype("<i4").tobytes(),
+            bytes(limits),
+        ]
         digest = hashlib.sha256()
         for part in parts:
             digest.update(len(part).to_bytes(8, "little") + part)
@@ -64,7 +81,9 @@ def _library() -> bytes:
 
 def answer(question: Question) -> bytes:
     """Result.to_bytes of one question: what a worker runs, on one core."""
-    return question.scene.prove(question.start, question.goal, threads=1, **question.options).to_bytes()
+    return question.scene.prove(
+        question.start, question.goal, threads=1, **question.options
+    ).to_bytes()
 
 
 class Checkpoint:
@@ -79,7 +98,10 @@ class Checkpoint:
         try:
             raw = json.loads((self.folder / f"{key}.json").read_text(encoding="ascii"))
             data = raw["answer"].encode()
-            if raw["key"] == key and raw["sha256"] == hashlib.sha256(key.encode() + data).hexdigest():
+            if (
+                raw["key"] == key
+                and raw["sha256"] == hashlib.sha256(key.encode() + data).hexdigest()
+            ):
                 return bytes(data)
         except (OSError, ValueError, KeyError, TypeError, AttributeError):
             pass
@@ -87,9 +109,14 @@ class Checkpoint:
 
     def save(self, key: str, data: bytes) -> None:
         """Keep an answer."""
-        raw = {"key": key, "sha256": hashlib.sha256(key.encode() + data).hexdigest(),
-               "answer": data.decode()}
-        with tempfile.NamedTemporaryFile("w", dir=self.folder, suffix=".part", delete=False) as file:
+        raw = {
+            "key": key,
+            "sha256": hashlib.sha256(key.encode() + data).hexdigest(),
+            "answer": data.decode(),
+        }
+        with tempfile.NamedTemporaryFile(
+            "w", dir=self.folder, suffix=".part", delete=False
+        ) as file:
             json.dump(raw, file)
         os.replace(file.name, self.folder / f"{key}.json")
 
@@ -106,8 +133,10 @@ class _Pool:
             return self.executor.submit(answer, question)
         except (BrokenExecutor, RuntimeError) as error:
             if self.make is None:
-                raise RuntimeError("the executor is broken and cannot be had again; pass what makes one, "
-                                   "executor=lambda: ProcessPoolExecutor(...), not the executor") from error
+                raise RuntimeError(
+                    "the executor is broken and cannot be had again; pass what makes one, "
+                    "executor=lambda: ProcessPoolExecutor(...), not the executor"
+                ) from error
             self.executor.shutdown(wait=False, cancel_futures=True)
             self.executor = self.make()
             return self.executor.submit(answer, question)
@@ -117,16 +146,21 @@ class _Pool:
             self.executor.shutdown(wait=True, cancel_futures=True)
 
 
-def prove_many(questions: Iterable[Question], executor: ExecutorLike | None = None, *,
-               retries: int = 3, checkpoint: str | os.PathLike[str] | None = None,
-               progress: bool = False) -> list[Result]:
+def prove_many(
+    questions: Iterable[Question],
+    executor: ExecutorLike | None = None,
+    *,
+    retries: int = 3,
+    checkpoint: str | os.PathLike[str] | None = None,
+    progress: bool = False,
+) -> list[Result]:
     """Prove all questions; the results in their order, each the same bytes as one process gives.
 
-    executor: any concurrent.futures.Executor (dask: client.get_executor()), or a function that makes
-    one, which is called again when a pool breaks (then it is closed here at the end). None: here,
-    one after the other. retries: times that one question is asked again after a worker died;
-    what the library itself refuses is raised at once. checkpoint: a folder that answers are kept in.
-    """
+    executor: any concurrent.futures.Executor (dask: client.get_executor()), or a function that
+    makes one, which is called again when a pool breaks (then it is closed here at the end). None:
+    here, one after the other. retries: times that one question is asked again after a worker died;
+    what the library itself refuses is raised at once. checkpoint: a folder that answers are kept
+    in."""
     todo = list(questions)
     for one in todo:
         if not isinstance(one, Question):
@@ -164,8 +198,13 @@ def prove_many(questions: Iterable[Question], executor: ExecutorLike | None = No
     return [Result.from_bytes(done[index]) for index in range(len(todo))]
 
 
-def _run(todo: list[Question], left: list[int], pool: _Pool, retries: int,
-         keep: Callable[[int, bytes], None]) -> None:
+def _run(
+    todo: list[Question],
+    left: list[int],
+    pool: _Pool,
+    retries: int,
+    keep: Callable[[int, bytes], None],
+) -> None:
     tries = dict.fromkeys(left, 0)
     running: dict[Future[bytes], int] = {}
     try:

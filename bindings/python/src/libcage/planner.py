@@ -1,8 +1,7 @@
 """A planner and a proof side by side on one question: whichever has an answer first decides.
 
-A sampling planner finds paths and cannot tell that there is none: on such a question it reports Timeout,
-or an approximate solution. The proof runs beside it in a thread, outside the GIL.
-"""
+A sampling planner finds paths and cannot tell that there is none: on such a question it reports
+Timeout, or an approximate solution. The proof runs beside it in a thread, outside the GIL."""
 
 from __future__ import annotations
 
@@ -19,8 +18,8 @@ from .scene import Scene
 
 @dataclass(frozen=True)
 class Race:
-    """What came out: `status` of the planner (OMPL: PlannerStatus, INFEASIBLE where the proof says so),
-    and the proof's Result, or None where the planner was first."""
+    """What came out: `status` of the planner (OMPL: PlannerStatus, INFEASIBLE where the proof says
+    so), and the proof's Result, or None where the planner was first."""
 
     status: Any
     proof: Result | None
@@ -29,7 +28,9 @@ class Race:
 class Prover:
     """A proof running in a thread of its own until it is finished or stopped."""
 
-    def __init__(self, scene: Scene, start: PoseLike, goal: PoseLike | None = None, **options: Any) -> None:
+    def __init__(
+        self, scene: Scene, start: PoseLike, goal: PoseLike | None = None, **options: Any
+    ) -> None:
         self._proof = scene.begin(start, goal, **options)
         self._stop = threading.Event()
         self.result: Result | None = None
@@ -46,7 +47,9 @@ class Prover:
                     if proof.run(steps):
                         self.result = proof.result()
                         return
-                    steps = steps * 2 if proof.seconds - before < PORTION / 2 else max(64, steps // 2)
+                    steps = (
+                        steps * 2 if proof.seconds - before < PORTION / 2 else max(64, steps // 2)
+                    )
         except BaseException as error:
             self.error = error
 
@@ -63,8 +66,14 @@ class Prover:
         return self.result
 
 
-def race(solve: Callable[[Callable[[], bool]], Any], scene: Scene, start: PoseLike,
-         goal: PoseLike | None = None, infeasible: Any = None, **options: Any) -> Race:
+def race(
+    solve: Callable[[Callable[[], bool]], Any],
+    scene: Scene,
+    start: PoseLike,
+    goal: PoseLike | None = None,
+    infeasible: Any = None,
+    **options: Any,
+) -> Race:
     """Run solve(terminate), a planner that stops when terminate() is true, beside a proof.
 
     When the proof says that there is no path, terminate() becomes true and the status is
@@ -80,12 +89,19 @@ def race(solve: Callable[[Callable[[], bool]], Any], scene: Scene, start: PoseLi
     return Race(status, proof)
 
 
-def race_ompl(planner: Any, scene: Scene, start: PoseLike, goal: PoseLike | None = None,
-              seconds: float = 60.0, **options: Any) -> Race:
-    """race with a planner of OMPL that has its problem set: solve until solved, proved, or timed out.
+def race_ompl(
+    planner: Any,
+    scene: Scene,
+    start: PoseLike,
+    goal: PoseLike | None = None,
+    seconds: float = 60.0,
+    **options: Any,
+) -> Race:
+    """race with a planner of OMPL that has its problem set: solve until solved, proved, or timed
+    out.
 
-    The status is OMPL's own; PlannerStatus.INFEASIBLE when the proof landed first. start and goal must be
-    those of the planner's problem, and its validity checker must answer for the same balls.
+    The status is OMPL's own; PlannerStatus.INFEASIBLE when the proof landed first. start and goal
+    must be those of the planner's problem, and its validity checker must answer for the same balls.
     """
     import time
 
@@ -94,8 +110,9 @@ def race_ompl(planner: Any, scene: Scene, start: PoseLike, goal: PoseLike | None
     end = time.monotonic() + seconds
 
     def solve(separated: Callable[[], bool]) -> Any:
-        return planner.solve(base.PlannerTerminationCondition(
-            lambda: separated() or time.monotonic() > end))
+        return planner.solve(
+            base.PlannerTerminationCondition(lambda: separated() or time.monotonic() > end)
+        )
 
     kinds = getattr(base.PlannerStatus, "PlannerStatusType", base.PlannerStatus)
     return race(solve, scene, start, goal, base.PlannerStatus(kinds.INFEASIBLE), **options)

@@ -1,8 +1,7 @@
-"""Pictures in the plane with matplotlib: scenes, slices at one angle, paths, the components over the angle.
+"""Pictures in the plane with matplotlib: scenes, slices, paths, components over the angle.
 
-Slices and the graph are drawn from points of a raster, for the eye: the proof is in the atlas or the
-Result, not in the picture. All lengths are metres, angles radians.
-"""
+Slices and the graph are drawn from points of a raster, for the eye: the proof is in the atlas or
+the Result, not in the picture. All lengths are metres, angles radians."""
 
 from __future__ import annotations
 
@@ -45,14 +44,17 @@ def shown(scene: Scene, which: str) -> Balls:
     return balls
 
 
-def circles(ax: Axes, rows: NDArray[np.float64], colour: str, alpha: float = 1.0, zorder: float = 1) -> None:
+def circles(
+    ax: Axes, rows: NDArray[np.float64], colour: str, alpha: float = 1.0, zorder: float = 1
+) -> None:
     """Discs, rows x y r."""
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Circle
 
     patches = [Circle((float(x), float(y)), float(r)) for x, y, r in rows]
-    ax.add_collection(PatchCollection(patches, facecolor=colour, edgecolor="none", alpha=alpha,
-                                      zorder=zorder))
+    ax.add_collection(
+        PatchCollection(patches, facecolor=colour, edgecolor="none", alpha=alpha, zorder=zorder)
+    )
 
 
 def placed(balls: Balls, at: Pose) -> NDArray[np.float64]:
@@ -64,8 +66,9 @@ def placed(balls: Balls, at: Pose) -> NDArray[np.float64]:
     return rows
 
 
-def scene(what: Scene, start: PoseLike | None = None, goal: PoseLike | None = None,
-          ax: Axes | None = None) -> Axes:
+def scene(
+    what: Scene, start: PoseLike | None = None, goal: PoseLike | None = None, ax: Axes | None = None
+) -> Axes:
     """Obstacles grey, the object at the start blue, at the goal orange."""
     _flat(what)
     ax = _axes(ax)
@@ -81,7 +84,8 @@ def scene(what: Scene, start: PoseLike | None = None, goal: PoseLike | None = No
 
 
 def result(what: Scene, answer: Result, frames: int = 14, ax: Axes | None = None) -> Axes:
-    """The scene with start and goal, and the path found, as frames from violet to yellow and a line."""
+    """The scene with start and goal, and the path found, as frames from violet to yellow and a
+    line."""
     from matplotlib import colormaps
     from matplotlib.colors import to_hex
 
@@ -112,9 +116,15 @@ def _raster(what: Scene, points: int) -> tuple[NDArray[np.float64], NDArray[np.f
     return np.arange(low[0], high[0], pitch), np.arange(low[1], high[1], pitch)
 
 
-def classes_at(atlas: Atlas, xs: NDArray[np.float64], ys: NDArray[np.float64], theta: float,
-               side: str = "inner") -> NDArray[np.int32]:
-    """The atlas's class at each point of a raster, shape (len(ys), len(xs)), NO_CLASS where covered."""
+def classes_at(
+    atlas: Atlas,
+    xs: NDArray[np.float64],
+    ys: NDArray[np.float64],
+    theta: float,
+    side: str = "inner",
+) -> NDArray[np.int32]:
+    """The atlas's class at each point of a raster, shape (len(ys), len(xs)), NO_CLASS where
+    covered."""
     x, y = np.meshgrid(xs, ys)
     wxyz = np.zeros((x.size, 4))
     wxyz[:, 0], wxyz[:, 3] = np.cos(theta / 2), np.sin(theta / 2)
@@ -122,7 +132,8 @@ def classes_at(atlas: Atlas, xs: NDArray[np.float64], ys: NDArray[np.float64], t
 
 
 def _colours(classes: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Class 0, the outside, is pale; covered places are dark; the others have colours of their own."""
+    """Class 0, the outside, is pale; covered places are dark; the others have colours of their
+    own."""
     from matplotlib import colormaps
     from matplotlib.colors import to_rgb
 
@@ -133,8 +144,9 @@ def _colours(classes: NDArray[np.int32]) -> NDArray[np.float64]:
     return image
 
 
-def slices(what: Scene, atlas: Atlas, thetas: Any = (0.0, 0.5, 1.0), side: str = "inner",
-           points: int = 240) -> list[Axes]:
+def slices(
+    what: Scene, atlas: Atlas, thetas: Any = (0.0, 0.5, 1.0), side: str = "inner", points: int = 240
+) -> list[Axes]:
     """For each angle, where the object's origin can be: free classes coloured, collisions dark."""
     from matplotlib import pyplot
 
@@ -144,7 +156,9 @@ def slices(what: Scene, atlas: Atlas, thetas: Any = (0.0, 0.5, 1.0), side: str =
     xs, ys = _raster(what, points)
     for ax, theta in zip(axes[0], thetas):
         image = _colours(classes_at(atlas, xs, ys, float(theta), side))
-        ax.imshow(image, origin="lower", extent=(xs[0], xs[-1], ys[0], ys[-1]), interpolation="nearest")
+        ax.imshow(
+            image, origin="lower", extent=(xs[0], xs[-1], ys[0], ys[-1]), interpolation="nearest"
+        )
         ax.set_title(f"theta = {theta:.3g} rad, {side} side", fontsize=9)
         ax.set_xlabel("x of the object / m")
         ax.set_ylabel("y / m")
@@ -152,8 +166,14 @@ def slices(what: Scene, atlas: Atlas, thetas: Any = (0.0, 0.5, 1.0), side: str =
     return list(axes[0])
 
 
-def graph(what: Scene, atlas: Atlas, side: str = "inner", angles: int = 48, points: int = 120,
-          ax: Axes | None = None) -> Axes:
+def graph(
+    what: Scene,
+    atlas: Atlas,
+    side: str = "inner",
+    angles: int = 48,
+    points: int = 120,
+    ax: Axes | None = None,
+) -> Axes:
     """The components of the slices over the angle, coloured by class: a line joins components of
     neighbouring angles that overlap. The area of a dot is the component's."""
     from scipy import ndimage
@@ -178,13 +198,25 @@ def graph(what: Scene, atlas: Atlas, side: str = "inner", angles: int = 48, poin
         beyond = {i: _middle(labels[after], i) for i in np.unique(labels[after]) if i}
         for i, j in pairs:
             if i and j and pictures[k][labels[k] == i][0] == pictures[after][labels[after] == j][0]:
-                ax.plot([theta, theta + 2 * np.pi / angles], [ys[centre[i]], ys[beyond[j]]],
-                        color="#b0b0b0", linewidth=0.8, zorder=1)
+                ax.plot(
+                    [theta, theta + 2 * np.pi / angles],
+                    [ys[centre[i]], ys[beyond[j]]],
+                    color="#b0b0b0",
+                    linewidth=0.8,
+                    zorder=1,
+                )
         for i, at in centre.items():
             which = labels[k] == i
             colour = _colours(pictures[k][which][:1])[0]
-            ax.scatter([theta], [ys[at]], s=6 + 400 * which.mean(), color=[colour], edgecolors="black",
-                       linewidths=0.4, zorder=2)
+            ax.scatter(
+                [theta],
+                [ys[at]],
+                s=6 + 400 * which.mean(),
+                color=[colour],
+                edgecolors="black",
+                linewidths=0.4,
+                zorder=2,
+            )
     ax.set_xlabel("theta / rad")
     ax.set_ylabel("middle of the component, y / m")
     ax.set_title(f"components of the {side} slices, coloured by class", fontsize=9)

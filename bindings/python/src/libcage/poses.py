@@ -1,8 +1,8 @@
 """Poses in metres and radians, one or many, and their way to the integer grid and back.
 
-A pose takes the point p of the object to x + R p. In the plane it is a plain (x, y, theta), theta in
-radians, counter-clockwise. In space it is a 4x4 matrix, or a Pose made by from_wxyz or from_xyzw: a
-plain row of seven numbers is refused, as nobody can tell the order of its quaternion.
+A pose takes the point p of the object to x + R p. In the plane it is a plain (x, y, theta), theta
+in radians, counter-clockwise. In space it is a 4x4 matrix, or a Pose made by from_wxyz or
+from_xyzw: a plain row of seven numbers is refused, as nobody can tell the order of its quaternion.
 """
 
 from __future__ import annotations
@@ -52,7 +52,9 @@ class Pose:
     def matrix(self) -> Floats:
         """The pose as a homogeneous matrix: 3x3 in the plane, 4x4 in space."""
         matrix = np.eye(self.dim + 1)
-        matrix[: self.dim, : self.dim] = rotation_matrices(np.array([self.wxyz]))[0][: self.dim, : self.dim]
+        matrix[: self.dim, : self.dim] = rotation_matrices(np.array([self.wxyz]))[0][
+            : self.dim, : self.dim
+        ]
         matrix[: self.dim, self.dim] = self.x
         return matrix
 
@@ -125,12 +127,16 @@ def _from_quaternions(x: ArrayLike, quaternions: ArrayLike, order: list[int]) ->
     single = place.ndim == 1
     place, turn = np.atleast_2d(place), np.atleast_2d(turn)
     if place.ndim != 2 or place.shape[1] != 3 or turn.shape != (len(place), 4):
-        raise PoseError(f"positions of shape (n, 3) and quaternions of shape (n, 4) are wanted, not "
-                        f"{place.shape} and {turn.shape}")
+        raise PoseError(
+            f"positions of shape (n, 3) and quaternions of shape (n, 4) are wanted, not "
+            f"{place.shape} and {turn.shape}"
+        )
     size = np.linalg.norm(turn, axis=1, keepdims=True)
     if (abs(size - 1) > 1e-3).any():
-        raise PoseError("a quaternion is not of length 1 (to 1e-3): normalise it, and check that its "
-                        "order is the one of the function's name")
+        raise PoseError(
+            "a quaternion is not of length 1 (to 1e-3): normalise it, and check that its "
+            "order is the one of the function's name"
+        )
     poses = Poses(place, turn[:, order] / size)
     return poses[0] if single else poses
 
@@ -156,7 +162,8 @@ def from_xytheta(rows: ArrayLike) -> Poses:
 
 
 def from_matrices(matrices: ArrayLike) -> Poses:
-    """Poses in space from rigid 4x4 matrices of shape (n, 4, 4), or an error that names the first bad one."""
+    """Poses in space from rigid 4x4 matrices of shape (n, 4, 4), or an error that names the first
+    bad one."""
     from scipy.spatial.transform import Rotation
 
     array = real(matrices, "matrix")
@@ -170,9 +177,11 @@ def from_matrices(matrices: ArrayLike) -> Poses:
         square = np.einsum("nki,nkj->nij", turn, turn)
         skew = ~(abs(square - np.eye(3)) <= RIGID).all(axis=(1, 2))
     left = ~skew & (np.linalg.det(np.where(skew[:, None, None], np.eye(3), turn)) < 0)
-    for bad, why in ((last, "the last row is not 0 0 0 1"),
-                     (skew, "it scales or shears: the object is rigid"),
-                     (left, "it is left-handed: a mirror image, no motion")):
+    for bad, why in (
+        (last, "the last row is not 0 0 0 1"),
+        (skew, "it scales or shears: the object is rigid"),
+        (left, "it is left-handed: a mirror image, no motion"),
+    ):
         if bad.any():
             raise PoseError(f"matrix {int(np.argmax(bad))} is no pose: {why}")
     xyzw = Rotation.from_matrix(turn).as_quat()
@@ -185,7 +194,12 @@ def pose(value: PoseLike, dim: int) -> Pose:
         if value.dim != dim:
             raise PoseError(f"the pose has {value.dim} dimensions, the scene {dim}")
         return value
-    if dim == 2 and type(value) is tuple and len(value) == 3 and all(type(v) in (int, float) for v in value):
+    if (
+        dim == 2
+        and type(value) is tuple
+        and len(value) == 3
+        and all(type(v) in (int, float) for v in value)
+    ):
         x, y, theta = map(float, value)
         if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(theta)):
             raise PoseError("pose: NaN or infinite")
@@ -193,18 +207,25 @@ def pose(value: PoseLike, dim: int) -> Pose:
     array = np.asarray(value)
     if dim == 2:
         if array.shape != (3,):
-            raise PoseError(f"a pose in the plane is (x, y, theta), not an array of shape {array.shape}")
+            raise PoseError(
+                f"a pose in the plane is (x, y, theta), not an array of shape {array.shape}"
+            )
         return from_xytheta(array[None])[0]
     if array.shape == (7,):
-        raise PoseError("seven numbers: say which quaternion they hold, by libcage.from_wxyz(x, q) or "
-                        "libcage.from_xyzw(x, q)")
+        raise PoseError(
+            "seven numbers: say which quaternion they hold, by libcage.from_wxyz(x, q) or "
+            "libcage.from_xyzw(x, q)"
+        )
     if array.shape != (4, 4):
-        raise PoseError(f"a pose in space is a 4x4 matrix or a Pose, not an array of shape {array.shape}")
+        raise PoseError(
+            f"a pose in space is a 4x4 matrix or a Pose, not an array of shape {array.shape}"
+        )
     return from_matrices(array[None])[0]
 
 
 def poses(values: PosesLike, dim: int) -> Poses:
-    """Many poses of that dimension: rows x, y, theta, matrices (n, 4, 4), a list of Pose, or Poses."""
+    """Many poses of that dimension: rows x, y, theta, matrices (n, 4, 4), a list of Pose, or
+    Poses."""
     if isinstance(values, Pose):
         values = [values]
     if isinstance(values, (list, tuple)) and values and all(isinstance(v, Pose) for v in values):
@@ -219,7 +240,7 @@ def poses(values: PosesLike, dim: int) -> Poses:
     return from_xytheta(array) if dim == 2 else from_matrices(array)
 
 
-# ---- the grid -------------------------------------------------------------------------------------
+# ---- the grid ------------------------------------------------------------------------------------
 
 
 def to_grid(many: Poses, unit: float) -> Ints:
@@ -234,8 +255,10 @@ def to_grid(many: Poses, unit: float) -> Ints:
     far = ~(abs(place) <= _native.REACH[dim]).all(axis=1)
     if far.any():
         index = int(np.argmax(far))
-        raise PoseError(f"pose {index} at {many.x[index].tolist()} is beyond the grid, which ends at "
-                        f"{_native.REACH[dim] * unit:.6g}: use a larger unit")
+        raise PoseError(
+            f"pose {index} at {many.x[index].tolist()} is beyond the grid, which ends at "
+            f"{_native.REACH[dim] * unit:.6g}: use a larger unit"
+        )
     grid[:, :dim] = place
     turn = many.wxyz * _native.QUATERNION[dim]
     if dim == 3:
@@ -247,8 +270,10 @@ def to_grid(many: Poses, unit: float) -> Ints:
 def row_of(one: Pose, unit: float) -> list[int]:
     """One row as of to_grid, without the cost of arrays."""
     if any(abs(value / unit) >= _native.REACH[one.dim] + 0.5 for value in one.x):
-        raise PoseError(f"the pose at {list(one.x)} is beyond the grid, which ends at "
-                        f"{_native.REACH[one.dim] * unit:.6g}: use a larger unit")
+        raise PoseError(
+            f"the pose at {list(one.x)} is beyond the grid, which ends at "
+            f"{_native.REACH[one.dim] * unit:.6g}: use a larger unit"
+        )
     place = [round(value / unit) for value in one.x]
     scale = float(_native.QUATERNION[one.dim])
     if one.dim == 3:
@@ -260,7 +285,9 @@ def pose_of(row: Sequence[int], dim: int, unit: float) -> Pose:
     """A row of the grid as a Pose of the object's origin."""
     w, x, y, z = row[3:]
     size = math.sqrt(w * w + x * x + y * y + z * z)
-    return Pose(tuple(value * unit for value in row[:dim]), (w / size, x / size, y / size, z / size))
+    return Pose(
+        tuple(value * unit for value in row[:dim]), (w / size, x / size, y / size, z / size)
+    )
 
 
 def from_grid(grid: Ints, dim: int, unit: float, pivot: Sequence[int] | None = None) -> Poses:

@@ -1,4 +1,4 @@
-"""A proof as it runs: its block of memory, portions of steps between which Ctrl-C is heard, threads."""
+"""A proof as it runs: its block of memory, portions between which Ctrl-C is heard, threads."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from .grid import Grid
 from .poses import Ints, pose_of
 from .result import Path, Result, Statistics, Verdict
 
-PORTION = 0.05   # seconds that a call into the library takes at most, if its steps are short
-ALONE = 0.03     # seconds before threads are started: most proofs are done by then
+PORTION = 0.05  # seconds that a call into the library takes at most, if its steps are short
+ALONE = 0.03  # seconds before threads are started: most proofs are done by then
 FIRST_STEPS = 64
 MEMORY = 4 << 30  # bytes that a block may grow to
 
@@ -64,8 +64,9 @@ class Crew:
         if self.count == 0:
             self.count = int(_native.lib.cagepy_threads_cores())
         if self.handle is None and self.count > 1:
-            self.handle = _native.lib.cagepy_threads_start(self.count, self.pairs,
-                                                           ctypes.byref(self.workers))
+            self.handle = _native.lib.cagepy_threads_start(
+                self.count, self.pairs, ctypes.byref(self.workers)
+            )
             if self.handle is None:
                 self.count = 1
         return ctypes.byref(self.workers) if self.handle is not None else None
@@ -104,8 +105,16 @@ class Proof:
     It holds everything that the C library reads: the scene's arrays and the block of memory.
     """
 
-    def __init__(self, grid: Grid, start: Ints, goal: Ints | None, limits: _native.Limits,
-                 about: str, note: str, memory: int | None = None) -> None:
+    def __init__(
+        self,
+        grid: Grid,
+        start: Ints,
+        goal: Ints | None,
+        limits: _native.Limits,
+        about: str,
+        note: str,
+        memory: int | None = None,
+    ) -> None:
         self.grid, self.start, self.goal, self.limits = grid, start, goal, limits
         self.about, self.note = about, note
         self.most = MEMORY if memory is None else int(memory)
@@ -121,9 +130,14 @@ class Proof:
         self._state = 0
         self._handle = ctypes.c_void_p()
         _native.lib.cage_prove_begin(
-            ctypes.byref(self._handle), ctypes.byref(self.grid.struct), reachable(self.start),
-            None if self.goal is None else reachable(self.goal), ctypes.byref(self.limits),
-            ctypes.c_void_p(self._block.ctypes.data), size)
+            ctypes.byref(self._handle),
+            ctypes.byref(self.grid.struct),
+            reachable(self.start),
+            None if self.goal is None else reachable(self.goal),
+            ctypes.byref(self.limits),
+            ctypes.c_void_p(self._block.ctypes.data),
+            size,
+        )
 
     def _raw(self) -> _native.ResultStruct:
         if not self._handle:
@@ -169,11 +183,14 @@ class Proof:
         if size <= self._size or needed > self.most:
             raise OutOfMemoryError(
                 f"the proof needs a block of {needed} bytes, and {self.most} are allowed: pass "
-                "memory=..., or a smaller max_cells", needed=needed)
+                "memory=..., or a smaller max_cells",
+                needed=needed,
+            )
         self._begin(size)
 
-    def finish(self, threads: int | None = None,
-               show: Callable[[_native.ResultStruct], None] | None = None) -> Result:
+    def finish(
+        self, threads: int | None = None, show: Callable[[_native.ResultStruct], None] | None = None
+    ) -> Result:
         """Run to the end, after a while on so many threads (None: all cores), and answer."""
         with self._lock:
             crew = Crew(threads, self.grid.pairs)
@@ -197,37 +214,66 @@ class Proof:
             rows.setflags(write=False)
             path = Path(rows, (raw.pivot[0], raw.pivot[1], raw.pivot[2]), grid.unit, grid.dim)
             if not self._certified(raw):
-                raise CageError("the path found does not pass the independent check. This is a bug; "
-                                "please report the scene")
+                raise CageError(
+                    "the path found does not pass the independent check. This is a bug; "
+                    "please report the scene"
+                )
         side = self.limits.side
-        if (verdict.separated and not side & _native.INNER) or (verdict.joined and not side & _native.OUTER):
-            raise CageError(f"{verdict} from a side that was not asked. This is a bug; please report it")
+        if (verdict.separated and not side & _native.INNER) or (
+            verdict.joined and not side & _native.OUTER
+        ):
+            raise CageError(
+                f"{verdict} from a side that was not asked. This is a bug; please report it"
+            )
         statistics = Statistics(
-            raw.level, raw.cells, tuple(raw.slices), tuple(raw.gluings), tuple(raw.mixtures),
-            tuple(raw.reached), tuple(raw.balls), tuple(raw.inserted), raw.steps, raw.peak_bytes,
-            self.seconds)
+            raw.level,
+            raw.cells,
+            tuple(raw.slices),
+            tuple(raw.gluings),
+            tuple(raw.mixtures),
+            tuple(raw.reached),
+            tuple(raw.balls),
+            tuple(raw.inserted),
+            raw.steps,
+            raw.peak_bytes,
+            self.seconds,
+        )
         dim, start = grid.dim, tuple(self.start.tolist())
         goal = None if self.goal is None else tuple(self.goal.tolist())
         return Result(
-            verdict, _native.text(_native.lib.cage_reason_text, raw.reason),
+            verdict,
+            _native.text(_native.lib.cage_reason_text, raw.reason),
             pose_of(start, dim, grid.unit),
-            None if goal is None else pose_of(goal, dim, grid.unit), start, goal,
-            grid.unit, dim, tuple(value * grid.unit for value in raw.pivot[:dim]), path, statistics,
-            self.about, self.note)
+            None if goal is None else pose_of(goal, dim, grid.unit),
+            start,
+            goal,
+            grid.unit,
+            dim,
+            tuple(value * grid.unit for value in raw.pivot[:dim]),
+            path,
+            statistics,
+            self.about,
+            self.note,
+        )
 
     def _certified(self, raw: _native.ResultStruct) -> bool:
         answer: int = _native.lib.cage_path_check(
-            ctypes.byref(self.grid.struct), reachable(self.start),
-            None if self.goal is None else reachable(self.goal), ctypes.byref(raw.pivot), raw.path,
-            raw.path_count)
+            ctypes.byref(self.grid.struct),
+            reachable(self.start),
+            None if self.goal is None else reachable(self.goal),
+            ctypes.byref(raw.pivot),
+            raw.path,
+            raw.path_count,
+        )
         return answer == 1
 
-    def region(self, origin: tuple[float, ...], pitch: float, shape: tuple[int, ...]) -> NDArray[np.bool_]:
+    def region(
+        self, origin: tuple[float, ...], pitch: float, shape: tuple[int, ...]
+    ) -> NDArray[np.bool_]:
         """Where the pivot can be, for some rotation, as far as the inner side knows.
 
-        True at [i, j (, k)] where the point origin + pitch (i, j, k), metres, lies in the reached part
-        of the inner slices. origin and pitch are rounded to the grid. For pictures.
-        """
+        True at [i, j (, k)] where the point origin + pitch (i, j, k), metres, lies in the reached
+        part of the inner slices. origin and pitch are rounded to the grid. For pictures."""
         dim, unit = self.grid.dim, self.grid.unit
         if len(origin) != dim or len(shape) != dim or min(shape) < 1:
             raise InputError(f"origin and shape have {dim} entries each, shape at least 1")
@@ -238,8 +284,13 @@ class Proof:
         mask = np.zeros(int(np.prod(count)), dtype=np.uint8)
         with self._lock:
             self._raw()
-            _native.lib.cage_prove_region(self._handle, reachable(first), max(1, round(pitch / unit)),
-                                          reachable(count), ctypes.c_void_p(mask.ctypes.data))
+            _native.lib.cage_prove_region(
+                self._handle,
+                reachable(first),
+                max(1, round(pitch / unit)),
+                reachable(count),
+                ctypes.c_void_p(mask.ctypes.data),
+            )
         return mask.reshape(count[::-1]).T[(slice(None),) * dim + (0,) * (3 - dim)].astype(bool)
 
     def close(self) -> None:
@@ -252,6 +303,10 @@ class Proof:
     def __enter__(self) -> Proof:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
-                 trace: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
         self.close()

@@ -70,8 +70,11 @@ class Path:
         return len(self.grid)
 
     def __eq__(self, other: object) -> bool:
-        return (isinstance(other, Path) and np.array_equal(self.grid, other.grid)
-                and (self.pivot_grid, self.unit, self.dim) == (other.pivot_grid, other.unit, other.dim))
+        return (
+            isinstance(other, Path)
+            and np.array_equal(self.grid, other.grid)
+            and (self.pivot_grid, self.unit, self.dim) == (other.pivot_grid, other.unit, other.dim)
+        )
 
     @property
     def pivot(self) -> tuple[float, ...]:
@@ -135,16 +138,25 @@ class Result:
         return "\n".join(lines + ([f"note: {self.note}"] if self.note else []))
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain lists and numbers: everything that is the same on every machine and with any memory."""
-        stats = {name: list(value) if isinstance(value, tuple) else value
-                 for name, value in vars(self.statistics).items()
-                 if name not in ("peak_bytes", "seconds")}
+        """Plain lists and numbers: everything that is the same on every machine and with any
+        memory."""
+        stats = {
+            name: list(value) if isinstance(value, tuple) else value
+            for name, value in vars(self.statistics).items()
+            if name not in ("peak_bytes", "seconds")
+        }
         return {
-            "verdict": str(self.verdict), "reason": self.reason, "about": self.about, "note": self.note,
-            "dim": self.dim, "unit": self.unit, "start": list(self.start_grid),
+            "verdict": str(self.verdict),
+            "reason": self.reason,
+            "about": self.about,
+            "note": self.note,
+            "dim": self.dim,
+            "unit": self.unit,
+            "start": list(self.start_grid),
             "goal": None if self.goal_grid is None else list(self.goal_grid),
             "pivot": [round(value / self.unit) for value in self.pivot],
-            "path": None if self.path is None else self.path.grid.tolist(), "statistics": stats,
+            "path": None if self.path is None else self.path.grid.tolist(),
+            "statistics": stats,
         }
 
     def to_bytes(self) -> bytes:
@@ -161,14 +173,25 @@ class Result:
         if raw["path"] is not None:
             grid = np.array(raw["path"], dtype=np.int32).reshape(-1, 7)
             path = Path(grid, (pivot[0], pivot[1], pivot[2]), unit, dim)
-        stats: dict[str, Any] = {name: tuple(value) if isinstance(value, list) else value
-                 for name, value in raw["statistics"].items()}
+        stats: dict[str, Any] = {
+            name: tuple(value) if isinstance(value, list) else value
+            for name, value in raw["statistics"].items()
+        }
         return cls(
-            Verdict[raw["verdict"]], raw["reason"], pose_of(raw["start"], dim, unit),
-            None if raw["goal"] is None else pose_of(raw["goal"], dim, unit), tuple(raw["start"]),
-            None if raw["goal"] is None else tuple(raw["goal"]), unit, dim,
-            tuple(value * unit for value in pivot[:dim]), path,
-            Statistics(**stats, peak_bytes=0), raw["about"], raw["note"])
+            Verdict[raw["verdict"]],
+            raw["reason"],
+            pose_of(raw["start"], dim, unit),
+            None if raw["goal"] is None else pose_of(raw["goal"], dim, unit),
+            tuple(raw["start"]),
+            None if raw["goal"] is None else tuple(raw["goal"]),
+            unit,
+            dim,
+            tuple(value * unit for value in pivot[:dim]),
+            path,
+            Statistics(**stats, peak_bytes=0),
+            raw["about"],
+            raw["note"],
+        )
 
 
 @dataclass(frozen=True)
@@ -190,4 +213,5 @@ class Margin:
 
     def __str__(self) -> str:
         closed = "-inf" if self.closed is None else f"{self.closed:.6g}"
-        return f"closed at {closed}, open at {self.open:.6g} ({self.proofs} proofs); about: {self.about}"
+        found = f"closed at {closed}, open at {self.open:.6g} ({self.proofs} proofs)"
+        return f"{found}; about: {self.about}"

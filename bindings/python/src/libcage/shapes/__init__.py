@@ -3,5 +3,13 @@
 from .fit import Check, Fit, fit, inner_of, verify_balls, verify_cover
 from .solids import MeshBoundary, PolygonBoundary
 
-__all__ = ["Check", "Fit", "MeshBoundary", "PolygonBoundary", "fit", "inner_of", "verify_balls",
-           "verify_cover"]
+__all__ = [
+    "Check",
+    "Fit",
+    "MeshBoundary",
+    "PolygonBoundary",
+    "fit",
+    "inner_of",
+    "verify_balls",
+    "verify_cover",
+]

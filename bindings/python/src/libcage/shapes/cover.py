@@ -1,10 +1,9 @@
 """Does a set of balls cover a solid? Cells of a quadtree or octree tell, and where not, get a ball.
 
-A cell is done when no element of the boundary meets it and it is outside, or when one ball holds all of
-it. Both are decided on the safe side: the tests against doubles carry bounds of their rounding errors,
-and where these leave it open the cell counts as met, or as not held. Whether a cell off the boundary is
-inside is decided exactly.
-"""
+A cell is done when no element of the boundary meets it and it is outside, or when one ball holds
+all of it. Both are decided on the safe side: the tests against doubles carry bounds of their
+rounding errors, and where these leave it open the cell counts as met, or as not held. Whether a
+cell off the boundary is inside is decided exactly."""
 
 from __future__ import annotations
 
@@ -18,7 +17,7 @@ from ..errors import SolidError
 from .exact import Boundary, Floats
 
 HELD = 1 - 1e-12  # |corner - centre| in doubles is right to 1e-15 of itself: no cancellation in it
-MARGIN = 1e-13    # of |edge| |edge| |distance|; the products below are right to 1e-14 of that
+MARGIN = 1e-13  # of |edge| |edge| |distance|; the products below are right to 1e-14 of that
 
 
 @dataclass
@@ -40,19 +39,27 @@ def root(boundary: Boundary) -> Cell:
     corner = np.floor(low / step) * step
     centre = corner + half
     if (abs(corner) > half * 2.0**26).any():
-        raise SolidError("the solid is too far from the origin of its frame for its size: move it there")
+        raise SolidError(
+            "the solid is too far from the origin of its frame for its size: move it there"
+        )
     return Cell(centre, half, np.arange(len(boundary.corners)), np.zeros(0, dtype=np.int64), 0)
 
 
 def _meets(boundary: Boundary, cell: Cell) -> NDArray[np.int64]:
     """Of the cell's elements those that may meet the closed cell."""
     which = cell.elements
-    box = (boundary.low[which] <= cell.centre + cell.half) & (boundary.high[which] >= cell.centre - cell.half)
+    box = (boundary.low[which] <= cell.centre + cell.half) & (
+        boundary.high[which] >= cell.centre - cell.half
+    )
     which = which[box.all(axis=1)]
     if not len(which):
         return np.asarray(which)
     corners = boundary.corners[which] - cell.centre
-    edges = np.roll(corners, -1, axis=1) - corners if boundary.dim == 3 else corners[:, 1:] - corners[:, :1]
+    edges = (
+        np.roll(corners, -1, axis=1) - corners
+        if boundary.dim == 3
+        else corners[:, 1:] - corners[:, :1]
+    )
     far = np.linalg.norm(corners, axis=2).max(axis=1) + cell.half
     length = np.linalg.norm(edges, axis=2)
     if boundary.dim == 2:
@@ -65,8 +72,11 @@ def _meets(boundary: Boundary, cell: Cell) -> NDArray[np.int64]:
             i, j = (k + 1) % 3, (k + 2) % 3
             axes[:, 3 * k + 1 : 3 * k + 4, i] = -edges[..., j]
             axes[:, 3 * k + 1 : 3 * k + 4, j] = edges[..., i]
-        error = MARGIN * far[:, None] * np.concatenate(
-            [length[:, :1] * length[:, 1:2], length, length, length], axis=1)
+        error = (
+            MARGIN
+            * far[:, None]
+            * np.concatenate([length[:, :1] * length[:, 1:2], length, length, length], axis=1)
+        )
     along = np.einsum("nac,nvc->nav", axes, corners)
     reach = cell.half * abs(axes).sum(axis=2) + error
     apart = (along.min(axis=2) > reach) | (along.max(axis=2) < -reach)
@@ -89,14 +99,23 @@ def _meeting(cell: Cell, rows: Floats, which: NDArray[np.int64]) -> NDArray[np.i
 def _children(cell: Cell, elements: NDArray[np.int64], balls: NDArray[np.int64]) -> list[Cell]:
     half = cell.half / 2
     dim = len(cell.centre)
-    return [Cell(cell.centre + half * np.array([1 if k >> i & 1 else -1 for i in range(dim)]), half,
-                 elements, balls, cell.depth + 1) for k in range(1 << dim)]
+    return [
+        Cell(
+            cell.centre + half * np.array([1 if k >> i & 1 else -1 for i in range(dim)]),
+            half,
+            elements,
+            balls,
+            cell.depth + 1,
+        )
+        for k in range(1 << dim)
+    ]
 
 
-def uncovered(boundary: Boundary, rows: Floats, leaf: float, first: bool = False,
-              most: int = 2_000_000) -> list[Cell]:
-    """The cells with a half diagonal of at most `leaf` that may hold a point of the solid and that no
-    ball holds. Empty: the balls cover the solid, proved. first: one such cell is enough."""
+def uncovered(
+    boundary: Boundary, rows: Floats, leaf: float, first: bool = False, most: int = 2_000_000
+) -> list[Cell]:
+    """The cells with a half diagonal of at most `leaf` that may hold a point of the solid and that
+    no ball holds. Empty: the balls cover the solid, proved. first: one such cell is enough."""
     start = root(boundary)
     start.balls = np.arange(len(rows))
     if leaf < start.half * 2.0**-20:
@@ -133,5 +152,7 @@ def complete(boundary: Boundary, rows: Floats, tolerance: float) -> Floats:
         if not added or not _held(cell, np.array(added)).any():
             added.append(np.append(cell.centre, radius))
             if not _held(cell, added[-1][None])[0]:
-                raise SolidError("the cover could not be completed. This is a bug; please report the solid")
+                raise SolidError(
+                    "the cover could not be completed. This is a bug; please report the solid"
+                )
     return np.vstack([rows, *added])

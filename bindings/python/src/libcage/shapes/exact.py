@@ -1,9 +1,9 @@
-"""Exact integer geometry: is a ball clear of every segment or triangle, and on which side is its centre.
+"""Exact integer geometry: is a ball clear of every segment or triangle, is its centre inside.
 
-A double is an integer times a power of two, so all of a solid's coordinates are integers in one common
-unit, and a ball's too in a finer one. Everything here is then decided in Python's integers, without
-rounding; doubles are only compared, to leave out elements whose box does not meet the ball's.
-"""
+A double is an integer times a power of two, so all of a solid's coordinates are integers in one
+common unit, and a ball's too in a finer one. Everything here is then decided in Python's integers,
+without rounding; doubles are only compared, to leave out elements whose box does not meet the
+ball's."""
 
 from __future__ import annotations
 
@@ -90,9 +90,8 @@ def winding_2d(p: Point, segments: Iterable[tuple[Point, Point]]) -> int:
 def _around(p: Point, triangle: Sequence[Point]) -> int:
     """How the triangle, seen along x, goes around p moved by infinitesimals: 1, 0 or -1.
 
-    z is moved up by the smaller, y by the larger one; each edge decides for itself, so triangles that
-    share an edge agree about it, and a triangle seen edge-on counts 0.
-    """
+    z is moved up by the smaller, y by the larger one; each edge decides for itself, so triangles
+    that share an edge agree about it, and a triangle seen edge-on counts 0."""
     turns = 0
     for k in range(3):
         a, b = triangle[k], triangle[(k + 1) % 3]
@@ -108,7 +107,8 @@ def _around(p: Point, triangle: Sequence[Point]) -> int:
 
 def winding_3d(p: Point, triangles: Iterable[Sequence[Point]]) -> int:
     """How often a closed oriented surface goes around p, which is not on it: the signed number of
-    triangles that the ray from p along x leaves through. 1 inside a solid whose faces look outward."""
+    triangles that the ray from p along x leaves through. 1 inside a solid whose faces look
+    outward."""
     turns = 0
     for a, b, c in triangles:
         way = _around(p, (a, b, c))
@@ -152,14 +152,17 @@ class Boundary:
         count = corners.shape[1]
         self._exact = [tuple(exact[i : i + count]) for i in range(0, len(exact), count)]
 
-    def _place(self, values: Sequence[float], which: NDArray[np.int64]) -> tuple[list[int], list[list[Point]]]:
+    def _place(
+        self, values: Sequence[float], which: NDArray[np.int64]
+    ) -> tuple[list[int], list[list[Point]]]:
         """Numbers and elements as integers in one unit."""
         e = max(exponent(values), self._e)
         shift = e - self._e
         if shift == 0:
             return scaled(values, e), [list(self._exact[i]) for i in which]
-        return scaled(values, e), [[[v << shift for v in corner] for corner in self._exact[i]]
-                                   for i in which]
+        return scaled(values, e), [
+            [[v << shift for v in corner] for corner in self._exact[i]] for i in which
+        ]
 
     def clear(self, ball: Floats) -> bool:
         """Is the open ball (x, y, r) or (x, y, z, r) off every element? Exact."""
@@ -174,14 +177,19 @@ class Boundary:
 
     def windings(self, point: Floats) -> dict[int, int]:
         """The winding number of each chain around a point that is on none. Exact."""
-        cut = (self.low[:, 1:] <= point[1:]).all(axis=1) & (self.high[:, 1:] >= point[1:]).all(axis=1)
+        cut = (self.low[:, 1:] <= point[1:]).all(axis=1) & (self.high[:, 1:] >= point[1:]).all(
+            axis=1
+        )
         which = np.flatnonzero(cut if self.dim == 2 else cut & (self.high[:, 0] >= point[0]))
         p, elements = self._place([float(v) for v in point], which)
         result: dict[int, int] = {}
         for number in np.unique(self.chain[which]):
             part = [e for e, i in zip(elements, which) if self.chain[i] == number]
-            result[int(number)] = (winding_2d(p, [(e[0], e[1]) for e in part]) if self.dim == 2
-                                   else winding_3d(p, part))
+            result[int(number)] = (
+                winding_2d(p, [(e[0], e[1]) for e in part])
+                if self.dim == 2
+                else winding_3d(p, part)
+            )
         return result
 
     def surely_inside(self, point: Floats) -> bool:

@@ -1,4 +1,4 @@
-"""Balls for a polygon or a mesh: inner ones, each proved to lie inside, and outer ones, proved to cover it."""
+"""Balls for a polygon or a mesh: inner ones proved to lie inside, outer ones to cover it."""
 
 from __future__ import annotations
 
@@ -22,11 +22,10 @@ SHRINK = 1e-12  # of a radius in doubles, before the exact check
 class Fit:
     """Balls made for a solid, in its frame and unit of length.
 
-    inner: each lies inside the solid, checked with exact integers. outer: they cover it, and no point of
-    them is farther than `outer_tolerance` from it. uncovered_depth: how far the worst of the sampled
-    points of the solid is from the inner balls (an estimate); filled: the share of the samples
-    that they hold.
-    """
+    inner: each lies inside the solid, checked with exact integers. outer: they cover it, and no
+    point of them is farther than `outer_tolerance` from it. uncovered_depth: how far the worst of
+    the sampled points of the solid is from the inner balls (an estimate); filled: the share of the
+    samples that they hold."""
 
     inner: Balls
     outer: Balls
@@ -39,9 +38,11 @@ class Fit:
         return Solid(self.inner, self.outer)
 
     def __str__(self) -> str:
-        return (f"{len(self.inner)} inner balls (proved inside) hold {100 * self.filled:.1f} % of the "
-                f"samples, the worst is {self.uncovered_depth:.4g} from them; {len(self.outer)} outer "
-                f"balls (proved to cover) stay within {self.outer_tolerance:.4g} of the solid")
+        return (
+            f"{len(self.inner)} inner balls (proved inside) hold {100 * self.filled:.1f} % of the "
+            f"samples, the worst is {self.uncovered_depth:.4g} from them; {len(self.outer)} outer "
+            f"balls (proved to cover) stay within {self.outer_tolerance:.4g} of the solid"
+        )
 
 
 @dataclass(frozen=True)
@@ -64,10 +65,9 @@ class Check:
 def verify_balls(solid: Any, balls: Any) -> Check:
     """Does each ball lie inside the mesh or polygon? Decided with exact integers.
 
-    solid: a closed mesh (trimesh, faces outward) or a shapely polygon. balls: Balls, or rows x y (z) r
-    in the same frame and unit. Where the solid overlaps itself a ball counts as inside only if
-    every reading of it says so.
-    """
+    solid: a closed mesh (trimesh, faces outward) or a shapely polygon. balls: Balls, or rows x y
+    (z) r in the same frame and unit. Where the solid overlaps itself a ball counts as inside only
+    if every reading of it says so."""
     edge = boundary(solid)
     rows = balls.rows if isinstance(balls, Balls) else np.asarray(balls, dtype=np.float64)
     if rows.ndim != 2:
@@ -94,7 +94,7 @@ def inner_of(solid: Any, balls: Any) -> Balls:
     return Balls(balls, "inner", "verified")
 
 
-# ---- candidates -----------------------------------------------------------------------------------
+# ---- candidates ----------------------------------------------------------------------------------
 
 
 def _along(shape: Any, count: int) -> Floats:
@@ -137,26 +137,34 @@ def _inside(edge: Boundary, solid: Any, points: Floats) -> NDArray[np.bool_]:
     return np.asarray(shapely.contains_xy(solid, points[:, 0], points[:, 1]))
 
 
-def _samples(edge: Boundary, solid: Any, count: int, rng: np.random.Generator) -> tuple[Floats, Floats]:
+def _samples(
+    edge: Boundary, solid: Any, count: int, rng: np.random.Generator
+) -> tuple[Floats, Floats]:
     """Points on the boundary, and points that seem to be inside."""
     if isinstance(edge, PolygonBoundary):
         surface = _along(solid, count)
     else:
-        area = np.linalg.norm(np.cross(edge.corners[:, 1] - edge.corners[:, 0],
-                                       edge.corners[:, 2] - edge.corners[:, 0]), axis=1)
+        area = np.linalg.norm(
+            np.cross(
+                edge.corners[:, 1] - edge.corners[:, 0], edge.corners[:, 2] - edge.corners[:, 0]
+            ),
+            axis=1,
+        )
         faces = rng.choice(len(area), count, p=area / area.sum())
         u, v = rng.uniform(size=(2, count, 1))
         u, v = np.where(u + v > 1, 1 - u, u), np.where(u + v > 1, 1 - v, v)
         a, b, c = (edge.corners[faces, k] for k in range(3))
-        surface = np.concatenate([a + u * (b - a) + v * (c - a), edge.corners.reshape(-1, 3)[:count]])
+        surface = np.concatenate(
+            [a + u * (b - a) + v * (c - a), edge.corners.reshape(-1, 3)[:count]]
+        )
     low, high = edge.low.min(axis=0), edge.high.max(axis=0)
     points = rng.uniform(low, high, (4 * count, edge.dim))
     return surface, points[_inside(edge, solid, points)]
 
 
 def _candidates(edge: Boundary, solid: Any, surface: Floats, inside: Floats) -> Floats:
-    """Rows of balls that seem to lie inside: around Voronoi vertices of the boundary's samples, which
-    are near the medial axis, and around points inside."""
+    """Rows of balls that seem to lie inside: around Voronoi vertices of the boundary's samples,
+    which are near the medial axis, and around points inside."""
     from scipy.spatial import QhullError, Voronoi
 
     low, high = edge.low.min(axis=0), edge.high.max(axis=0)
@@ -165,7 +173,9 @@ def _candidates(edge: Boundary, solid: Any, surface: Floats, inside: Floats) -> 
     except QhullError:
         middle = np.zeros((0, edge.dim))
     middle = middle[((middle > low) & (middle < high)).all(axis=1)]
-    points = np.concatenate([middle[_inside(edge, solid, middle)] if len(middle) else middle, inside])
+    points = np.concatenate(
+        [middle[_inside(edge, solid, middle)] if len(middle) else middle, inside]
+    )
     if not len(points):
         return np.zeros((0, edge.dim + 1))
     rows = np.c_[points, _distance(edge, solid, points) * (1 - SHRINK)]
@@ -173,8 +183,8 @@ def _candidates(edge: Boundary, solid: Any, surface: Floats, inside: Floats) -> 
 
 
 def _thin(rows: Floats, most: int) -> Floats:
-    """At most so many candidates, all over the solid: of those that are nearly the same the largest,
-    where nearly is the coarser the more there are."""
+    """At most so many candidates, all over the solid: of those that are nearly the same the
+    largest, where nearly is the coarser the more there are."""
     from scipy.spatial import cKDTree
 
     rows = rows[np.argsort(-rows[:, -1], kind="stable")]
@@ -205,7 +215,8 @@ def _proved(edge: Boundary, row: Floats) -> Floats | None:
 
 
 def _choose(edge: Boundary, rows: Floats, points: Floats, count: int, tolerance: float) -> Floats:
-    """Greedily the ball that holds most points that none holds yet, each proved when it is chosen."""
+    """Greedily the ball that holds most points that none holds yet, each proved when it is
+    chosen."""
     held = np.zeros(len(points), dtype=bool)
     gap = np.full(len(points), math.inf)
     holds = np.empty((len(rows), len(points)), dtype=bool)
@@ -231,8 +242,14 @@ def _choose(edge: Boundary, rows: Floats, points: Floats, count: int, tolerance:
     return np.array(chosen) if chosen else np.zeros((0, edge.dim + 1))
 
 
-def fit(solid: Any, count: int = 100, tolerance: float = 0.0, outer_tolerance: float | None = None,
-        samples: int = 2000, seed: int = 0) -> Fit:
+def fit(
+    solid: Any,
+    count: int = 100,
+    tolerance: float = 0.0,
+    outer_tolerance: float | None = None,
+    samples: int = 2000,
+    seed: int = 0,
+) -> Fit:
     """Inner and outer balls for a mesh or polygon, in its own frame and unit of length.
 
     solid: a closed trimesh mesh with faces outward, or a shapely (Multi)Polygon.
@@ -259,5 +276,10 @@ def fit(solid: Any, count: int = 100, tolerance: float = 0.0, outer_tolerance: f
     grown = inner.copy()
     grown[:, -1] = (grown[:, -1] + reach) * (1 - 1e-9)
     outer = cover.complete(edge, grown, reach)
-    return Fit(Balls(inner, "inner", "fit"), Balls(outer, "outer", "fit"),
-               float(max(gap.max(initial=0.0), 0.0)), float(held.mean()) if len(held) else 0.0, reach)
+    return Fit(
+        Balls(inner, "inner", "fit"),
+        Balls(outer, "outer", "fit"),
+        float(max(gap.max(initial=0.0), 0.0)),
+        float(held.mean()) if len(held) else 0.0,
+        reach,
+    )

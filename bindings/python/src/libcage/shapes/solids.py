@@ -1,9 +1,8 @@
-"""Polygons and meshes as boundaries: what is refused, and what inside means where they overlap themselves.
+"""Polygons and meshes as boundaries: what is refused, and what inside means.
 
-Inside is read so that no reading of a doubtful solid is contradicted: a point is surely inside where
-both the even-odd and the nonzero rule say so, surely outside where both do. What lies between is for
-inner balls outside, and for outer covers inside.
-"""
+Inside is read so that no reading of a doubtful solid is contradicted: a point is surely inside
+where both the even-odd and the nonzero rule say so, surely outside where both do. What lies between
+is for inner balls outside, and for outer covers inside."""
 
 from __future__ import annotations
 
@@ -22,12 +21,16 @@ class PolygonBoundary(Boundary):
         import shapely
 
         if shape.geom_type not in ("Polygon", "MultiPolygon"):
-            raise SolidError(f"a Polygon or MultiPolygon bounds a solid, a {shape.geom_type} does not")
+            raise SolidError(
+                f"a Polygon or MultiPolygon bounds a solid, a {shape.geom_type} does not"
+            )
         if shape.is_empty:
             raise SolidError("the polygon is empty")
         parts = [shape] if shape.geom_type == "Polygon" else list(shape.geoms)
         corners, chain = [], []
-        self.rings: list[tuple[int, list[int]]] = []  # of each polygon the shell's chain and the holes'
+        self.rings: list[
+            tuple[int, list[int]]
+        ] = []  # of each polygon the shell's chain and the holes'
         count = 0
         for part in parts:
             numbers = []
@@ -42,23 +45,30 @@ class PolygonBoundary(Boundary):
         if not np.isfinite(all_corners).all():
             raise SolidError("a coordinate of the polygon is NaN or infinite")
         if not shape.is_valid:
-            raise SolidError(f"the polygon is not valid: {shapely.is_valid_reason(shape)}; see "
-                             "shapely.make_valid")
+            raise SolidError(
+                f"the polygon is not valid: {shapely.is_valid_reason(shape)}; see "
+                "shapely.make_valid"
+            )
         super().__init__(all_corners, np.concatenate(chain))
 
     def surely_inside(self, point: Floats) -> bool:
         turns = self.windings(point)
-        return any(abs(turns.get(shell, 0)) == 1 and not any(turns.get(hole, 0) for hole in holes)
-                   for shell, holes in self.rings)
+        return any(
+            abs(turns.get(shell, 0)) == 1 and not any(turns.get(hole, 0) for hole in holes)
+            for shell, holes in self.rings
+        )
 
     def surely_outside(self, point: Floats) -> bool:
         turns = self.windings(point)
-        return all(turns.get(shell, 0) == 0 or any(abs(turns.get(hole, 0)) == 1 for hole in holes)
-                   for shell, holes in self.rings)
+        return all(
+            turns.get(shell, 0) == 0 or any(abs(turns.get(hole, 0)) == 1 for hole in holes)
+            for shell, holes in self.rings
+        )
 
 
 class MeshBoundary(Boundary):
-    """A closed triangle mesh, faces looking outward: a trimesh.Trimesh, or anything with vertices, faces."""
+    """A closed triangle mesh, faces looking outward: a trimesh.Trimesh, or anything with vertices,
+    faces."""
 
     def __init__(self, mesh: Any) -> None:
         vertices = np.asarray(mesh.vertices, dtype=np.float64)
@@ -75,15 +85,20 @@ class MeshBoundary(Boundary):
         super().__init__(vertices[faces], np.zeros(len(faces), dtype=np.int64))
         self.vertices, self.faces = vertices, faces
         if self._volume() <= 0:
-            raise SolidError("the mesh is inside out, or has no volume: its faces must look outward "
-                             "(trimesh: mesh.fix_normals() or mesh.invert())")
+            raise SolidError(
+                "the mesh is inside out, or has no volume: its faces must look outward "
+                "(trimesh: mesh.fix_normals() or mesh.invert())"
+            )
 
     def _volume(self) -> int:
         """Six times the volume, signed, exact, in the cube of the integer unit."""
         total = 0
         for a, b, c in self._exact:
-            total += (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
-                      + a[2] * (b[0] * c[1] - b[1] * c[0]))
+            total += (
+                a[0] * (b[1] * c[2] - b[2] * c[1])
+                - a[1] * (b[0] * c[2] - b[2] * c[0])
+                + a[2] * (b[0] * c[1] - b[1] * c[0])
+            )
         return total
 
     def surely_inside(self, point: Floats) -> bool:
@@ -108,9 +123,10 @@ def _closed(vertices: Floats, faces: Any) -> None:
     open_edges = int((balance != 0).sum())
     if open_edges:
         raise SolidError(
-            f"the mesh is not a closed surface with all faces the same way around: {open_edges} edges "
-            "have a hole beside them or neighbours turned over (trimesh: mesh.is_watertight, "
-            "mesh.is_winding_consistent, trimesh.repair)")
+            f"the mesh is not a closed surface with all faces the same way around: {open_edges} "
+            "edges have a hole beside them or neighbours turned over (trimesh: mesh.is_watertight, "
+            "mesh.is_winding_consistent, trimesh.repair)"
+        )
 
 
 def boundary(solid: Any) -> Boundary:
@@ -121,5 +137,6 @@ def boundary(solid: Any) -> Boundary:
         return PolygonBoundary(solid)
     if hasattr(solid, "vertices") and hasattr(solid, "faces"):
         return MeshBoundary(solid)
-    raise SolidError(f"a shapely polygon or a mesh with vertices and faces is wanted, not "
-                     f"{type(solid).__name__}")
+    raise SolidError(
+        f"a shapely polygon or a mesh with vertices and faces is wanted, not {type(solid).__name__}"
+    )
