@@ -153,7 +153,7 @@ def test_every_inner_ball_is_inside(fits, name):
 @pytest.mark.parametrize("name", SOLIDS)
 def test_the_outer_balls_cover_it_and_stay_near(fits, name):
     solid, made = fits[name]
-    assert verify_cover(solid, made.outer, leaf=0.4 * made.outer_tolerance)
+    assert verify_cover(solid, made.outer, leaf=0.25 * made.outer_tolerance)
     rng = np.random.default_rng(0)
     edge = boundary(solid)
     points = rng.uniform(edge.low.min(axis=0), edge.high.max(axis=0), (1500, edge.dim))
@@ -352,7 +352,7 @@ def test_winding_numbers_where_the_ray_meets_edges_and_corners():
             for z in range(-4, 5):
                 p = np.array([x, y, z], dtype=float)
                 if edge.clear(np.append(p, 1e-9)):
-                    wanted = (max(abs(p)) < 2) + (abs(p).sum() < 3)
+                    wanted = int(max(abs(p)) < 2) + int(abs(p).sum() < 3)
                     assert edge.windings(p).get(0, 0) == wanted
                     seen.add(wanted)
     assert seen == {0, 1, 2}

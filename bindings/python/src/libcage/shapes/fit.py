@@ -83,7 +83,8 @@ def verify_cover(solid: Any, balls: Any, leaf: float | None = None) -> bool:
     rows = balls.rows if isinstance(balls, Balls) else Balls(balls).rows
     if rows.shape[1] != edge.dim + 1:
         raise InputError(f"the balls have {rows.shape[1] - 1} dimensions, the solid {edge.dim}")
-    return not cover.uncovered(edge, rows, edge.size / 200 if leaf is None else leaf, first=True)
+    size = edge.size / 200 if leaf is None else leaf
+    return not len(cover.uncovered(edge, rows, size, first=True)[0])
 
 
 def inner_of(solid: Any, balls: Any) -> Balls:
