@@ -68,6 +68,7 @@ class Hook(BuildHookInterface[Any]):
         library = Path(self.folder) / name
         compile_library(root, library)
         build_data["force_include"][str(library)] = f"libcage/{name}"
+        build_data["force_include"][str(sources(root) / "LICENSE")] = "libcage/LICENSE"
         if version == "editable":
             shutil.copy2(library, root / "src" / "libcage" / name)
         platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")

@@ -112,8 +112,8 @@ class Scene:
             raise KindError(
                 f"{kinds}: balls of these kinds prove nothing on the side asked for ({side}). "
                 "Separation (CAGED) needs inner or exact balls of object and obstacles, paths "
-                "(FREE) outer or exact ones. Check them with libcage.verify_balls or say what they are "
-                "with Balls(rows, kind=...); insist=True asks about the balls as they are"
+                "(FREE) outer or exact ones. Check them with libcage.verify_balls or say what they "
+                "are with Balls(rows, kind=...); insist=True asks about the balls as they are"
             )
         note = ""
         if len(use) < len(wanted):

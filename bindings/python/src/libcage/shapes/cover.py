@@ -1,9 +1,10 @@
 """Does a set of balls cover a solid? Cells of a quadtree or octree tell, and where not, get a ball.
 
-A cell is done when no element of the boundary meets it and it is outside, or when one ball holds all
-of it. Both are decided on the safe side: the tests in doubles carry bounds of their rounding errors,
-and where these leave it open the cell counts as met, or as not held. Whether a cell off the boundary
-is inside is decided exactly. Cells of one size are worked on together, some thousands at a time.
+A cell is done when no element of the boundary meets it and it is outside, or when one ball holds
+all of it. Both are decided on the safe side: the tests in doubles carry bounds of their rounding
+errors, and where these leave it open the cell counts as met, or as not held. Whether a cell off the
+boundary is inside is decided exactly. Cells of one size are worked on together, some thousands at
+a time.
 """
 
 from __future__ import annotations
@@ -148,15 +149,12 @@ def _children(cells: Cells) -> list[Cells]:
     half = cells.half / 2
     corners = np.array([[1 if k >> i & 1 else -1 for i in range(dim)] for k in range(1 << dim)])
     number = len(corners)
-    made = Cells(
-        (cells.centre[:, None] + half * corners).reshape(-1, dim),
-        half,
-        *(
-            ((cell[:, None] * number + np.arange(number)).ravel(), np.repeat(other, number))
-            for cell, other in (cells.element, cells.ball)
-        ),
-        np.repeat(cells.inside, number),
+    element, ball = (
+        ((cell[:, None] * number + np.arange(number)).ravel(), np.repeat(other, number))
+        for cell, other in (cells.element, cells.ball)
     )
+    centre = (cells.centre[:, None] + half * corners).reshape(-1, dim)
+    made = Cells(centre, half, element, ball, np.repeat(cells.inside, number))
     if count * number <= TOGETHER:
         return [made]
     every = np.arange(count * number)
@@ -166,8 +164,8 @@ def _children(cells: Cells) -> list[Cells]:
 def uncovered(
     boundary: Boundary, rows: Floats, leaf: float, first: bool = False, most: int = 20_000_000
 ) -> tuple[Floats, float]:
-    """The cells with a half diagonal of at most `leaf` that may hold a point of the solid and that no
-    ball holds: their centres, and half their side. None: the balls cover the solid, proved.
+    """The cells with a half diagonal of at most `leaf` that may hold a point of the solid and that
+    no ball holds: their centres, and half their side. None: the balls cover the solid, proved.
 
     first: some such cells are enough.
     """
