@@ -12,23 +12,27 @@ import libcage
 from libcage import view
 
 
+def middle(mesh: trimesh.Trimesh, place: list) -> trimesh.Trimesh:
+    """The mesh, moved so that the middle of its box is there."""
+    mesh.apply_translation(np.array(place) - mesh.bounds.mean(axis=0))
+    return mesh
+
+
 def mug() -> trimesh.Trimesh:
     """A round full cup and a handle; the parts overlap, which is fine."""
     cup = trimesh.creation.capsule(0.030, 0.036, count=[16, 16])
     handle = trimesh.creation.torus(0.022, 0.005, major_sections=24, minor_sections=10)
     handle.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [1, 0, 0]))
-    handle.apply_translation([0.056, 0, 0])
-    return trimesh.util.concatenate([cup, handle])
+    return trimesh.util.concatenate([middle(cup, [0, 0, 0]), middle(handle, [0.056, 0, 0])])
 
 
 def hook() -> trimesh.Trimesh:
-    """An arm through the handle, and a tip at its end that points up."""
+    """An arm through the handle: one end free, at the other a tip that points up."""
     arm = trimesh.creation.capsule(0.080, 0.006, count=[12, 12])
     arm.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [1, 0, 0]))
-    arm.apply_translation([0.056, 0.035, 0])
     tip = trimesh.creation.capsule(0.006, 0.006, count=[12, 12])
-    tip.apply_translation([0.056, -0.045, 0])
-    return trimesh.util.concatenate([arm, tip])
+    parts = [middle(arm, [0.056, -0.005, 0]), middle(tip, [0.056, -0.045, 0.003])]
+    return trimesh.util.concatenate(parts)
 
 
 def main(html: str = "") -> libcage.Result:
