@@ -16,7 +16,7 @@ PIC_O   = $(CORE:src/%.c=build/pic/%.o)
 HOST_O  = $(HOST:src/host/%.c=build/host/%.o)
 
 .DEFAULT_GOAL = all
-.PHONY: all lib shared demo test check-firmware soak amalgamation packages bench bench-peers install uninstall clean help
+.PHONY: all lib shared demo test check-firmware check-python soak amalgamation packages bench bench-peers install uninstall clean help
 
 all: build/cage ## the command build/cage and the static library
 lib: build/libcage.a ## the static library, from freestanding C99
@@ -80,6 +80,9 @@ test: build/cage lib shared ## install what the tests need (when it may), build 
 	sh tests/deps.sh
 	$(MAKE) --no-print-directory -j2 -s $(TEST_BIN) $(SANI_BIN) build/prove_in_c
 	sh tests/run.sh
+
+check-python: ## build the Python package, and test it in an environment of its own with what PyPI has
+	sh bindings/python/check.sh
 
 build/prove_in_c: examples/prove_in_c.c build/libcage.a
 	$(CC) -std=c99 $(CFLAGS) $(WARN) -Iinclude $< build/libcage.a -o $@

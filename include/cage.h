@@ -369,6 +369,26 @@ typedef struct cage_atlas_box {
 int64_t cage_atlas_boxes(const cage_atlas *atlas, int32_t side, int32_t cell, int32_t class_number, int32_t halvings,
                          void (*visit)(void *context, const cage_atlas_box *box), void *context);
 
+/* ---- bindings ------------------------------------------------------------------------------------ */
+
+/* What a program that read no header (a binding in another language) compares with its own tables before it calls anything
+ * else: CAGE_ABI of this library, and the size of a struct above, 0 for an unknown number. */
+#define CAGE_STRUCT_BALL 0
+#define CAGE_STRUCT_SHAPE 1
+#define CAGE_STRUCT_SCENE 2
+#define CAGE_STRUCT_POSE 3
+#define CAGE_STRUCT_LIMITS 4
+#define CAGE_STRUCT_RESULT 5
+#define CAGE_STRUCT_WORKERS 6
+#define CAGE_STRUCT_MARGIN 7
+#define CAGE_STRUCT_PLAN 8
+#define CAGE_STRUCT_SURVEY_RESULT 9
+#define CAGE_STRUCT_ATLAS 10
+#define CAGE_STRUCT_CLASS 11
+#define CAGE_STRUCT_BOX 12
+int32_t cage_abi(void);
+size_t cage_struct_size(int32_t which);
+
 /* ---- words --------------------------------------------------------------------------------------- */
 const char *cage_verdict_text(int32_t verdict); /* "CAGED", ... */
 const char *cage_reason_text(int32_t reason);
