@@ -39,8 +39,12 @@ def test_overhead_of_a_proof():
         )
         assert lib.cage_prove_run(handle, 1 << 40) == 1
 
-    alone = best(in_c, 15, 100)
-    whole = best(lambda: scene.prove((0, 0, 0)), 15, 100)
+    alone = whole = np.inf
+    for _ in range(20):  # the machine may be busy: the least that is ever seen of each, in turns
+        alone = min(alone, best(in_c, 5, 100))
+        whole = min(whole, best(lambda: scene.prove((0, 0, 0)), 5, 100))
+        if whole - alone < 100e-6:
+            break
     print(f"C {1e6 * alone:.0f} us, Scene.prove {1e6 * whole:.0f} us")
     assert whole - alone < 100e-6
 
