@@ -362,12 +362,14 @@ typedef struct cage_atlas_box {
     int32_t whole; /* 1: all of it belongs to the class over all of the cell, 0: part of it may */
 } cage_atlas_box;
 
+typedef void cage_visit(void *context, const cage_atlas_box *box);
+
 /* Visit boxes that between them hold all translations that belong to the class over the cell (of class 0 those within the
  * bounding box of the cell's balls), but for gaps of one unit between boxes. Boxes of which only part may belong to it are
  * halved along each axis to find out, down to 1 / 2^halvings (0 to 20) of the size of the class (or of that box). For volumes
  * and pictures. How many were visited, or an error. */
 int64_t cage_atlas_boxes(const cage_atlas *atlas, int32_t side, int32_t cell, int32_t class_number, int32_t halvings,
-                         void (*visit)(void *context, const cage_atlas_box *box), void *context);
+                         cage_visit *visit, void *context);
 
 /* ---- bindings ------------------------------------------------------------------------------------ */
 

@@ -65,7 +65,7 @@ struct visitor {
     uint32_t class;
     int32_t least;   /* bits of the smallest boxes that are halved for their lists */
     int32_t low[3], high[3]; /* beyond that box there is nothing of it */
-    void (*visit)(void *context, const cage_atlas_box *box);
+    cage_visit *visit;
     void *context;
     int64_t count;
     int32_t splits;  /* of the chart, which has no more than the atlas has words */
@@ -194,7 +194,7 @@ static bool is_over(const cage_atlas *atlas, int32_t side, int32_t cell, const s
 }
 
 int64_t cage_atlas_boxes(const cage_atlas *atlas, int32_t side, int32_t cell, int32_t class_number, int32_t halvings,
-                         void (*visit)(void *context, const cage_atlas_box *box), void *context)
+                         cage_visit *visit, void *context)
 {
     if (!is_side(atlas, side) || !visit || cell < 0 || cell >= atlas->leaves || class_number < 0 || halvings < 0 ||
         halvings > MOST_HALVINGS || class_number >= atlas->classes[side == CAGE_SIDE_OUTER])

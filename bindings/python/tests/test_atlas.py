@@ -58,3 +58,20 @@ def test_pickles_and_bytes():
         assert pickle.loads(pickle.dumps(one)) == one
         again = Result.from_bytes(one.to_bytes())
         assert again == one and again.to_bytes() == one.to_bytes()
+
+
+def test_classes_say_how_far_they_turn():
+    slot = np.array([[x, y, 0.03] for x in np.arange(-0.2, 0.21, 0.02) for y in (-0.06, 0.06)])
+    ends = np.array([[x, 0, 0.04] for x in (-0.2, 0.2)])
+    bar = [[x, 0, 0.02] for x in (-0.06, 0, 0.06)]
+    atlas = Scene(bar, np.vstack([slot, ends])).atlas(8)
+    inside = atlas.locate([(0, 0, 0)])[0]
+    found = atlas.classes()[inside]
+    assert 0 < found.turn < np.pi / 2
+    assert abs(np.sin(2 * np.arctan2(found.middle.wxyz[3], found.middle.wxyz[0]))) < 1e-3
+    # Turned by more than it says, no pose of the slot is in the class; by less, one is.
+    for turn, there in ((found.turn + 0.01, False), (0.1 * found.turn, True)):
+        places = np.stack(np.meshgrid(np.linspace(-0.1, 0.1, 41), np.linspace(-0.03, 0.03, 13)), -1)
+        poses = np.c_[places.reshape(-1, 2), np.full(41 * 13, turn)]
+        assert (inside in atlas.locate(poses)) is there
+    assert atlas.classes()[0].turn == np.pi

@@ -127,7 +127,7 @@ def test_checkpoints_that_were_changed_or_belong_to_another_question_are_not_bel
         file.write_text(bad)
         assert str(prove_many([free], checkpoint=tmp_path)[0].verdict) == "FREE"
     before = free.key()
-    monkeypatch.setattr(many, "_library", lambda: b"another library")
+    monkeypatch.setattr(many, "library_hash", lambda: b"another library")
     assert free.key() != before  # an answer of another library is not found
 
 
@@ -192,3 +192,55 @@ def test_dask_with_a_worker_that_is_killed_gives_the_same_bytes(wanted):
         assert bytes_of(prove_many(questions(), executor)) == wanted
         assert killed
         executor.shutdown(wait=False)
+
+
+def test_an_atlas_in_parts_has_the_same_bytes(tmp_path):
+    scene = Scene([[0, 0, 0.03], [0.05, 0, 0.02]], [[0.1, 0, 0.05], [-0.1, 0.02, 0.06]])
+    for options in ({"level": 5}, {"level": 2, "budget": 60}, {"level": 4, "side": "inner"}):
+        whole = scene.atlas(**options).to_bytes()
+        with ProcessPoolExecutor(2) as pool:
+            assert scene.atlas(executor=pool, parts=5, **options).to_bytes() == whole
+        with Dying() as pool:
+            assert scene.atlas(executor=pool, parts=7, **options).to_bytes() == whole
+            assert pool.count > 7
+        folder = tmp_path / str(options["level"])
+        with ThreadPoolExecutor(2) as pool:
+            scene.atlas(executor=pool, parts=6, checkpoint=folder, **options)
+        kept = sorted(folder.iterdir())
+        assert len(kept) == 6
+        kept[0].unlink()
+        kept[1].write_text(kept[1].read_text()[:-9])  # cut off: not believed
+        with Dying() as pool:
+            got = scene.atlas(executor=pool, parts=6, checkpoint=folder, **options)
+        assert got.to_bytes() == whole
+    with ThreadPoolExecutor(1) as pool, pytest.raises(InputError):
+        scene.atlas(4, executor=pool, parts=0)
+
+
+def test_an_atlas_on_dask_with_a_worker_killed_has_the_same_bytes():
+    distributed = pytest.importorskip("distributed")
+    scene = Scene([[0, 0, 0.03], [0.05, 0, 0.02]], [[0.1, 0, 0.05], [-0.1, 0.02, 0.06]])
+    whole = scene.atlas(7).to_bytes()
+    with (
+        distributed.LocalCluster(
+            n_workers=2,
+            threads_per_worker=1,
+            processes=True,
+            dashboard_address=None,
+            memory_limit=0,
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        executor = client.get_executor(pure=False)
+        submit, count = executor.submit, [0]
+
+        def killing(function, *arguments, **options):
+            count[0] += 1
+            future = submit(function, *arguments, **options)
+            if count[0] == 6:
+                os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
+            return future
+
+        executor.submit = killing
+        assert scene.atlas(7, executor=executor, parts=12).to_bytes() == whole
+        assert count[0] >= 12

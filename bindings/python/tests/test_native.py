@@ -22,6 +22,7 @@ def functions(path):
     """name -> (result, types of the arguments) of every function a header declares."""
     text = re.sub(r"/\*.*?\*/", "", path.read_text(), flags=re.S)
     text = re.sub(r"^\s*#.*$", "", text, flags=re.M)
+    text = re.sub(r"^typedef [^{;]*\);", "", text, flags=re.M)  # types of functions are none
     found = {}
     for result, name, arguments in re.findall(
         r"([\w ]+?[ *]+)(cage(?:py)?_\w+)\(([^()]*)\);", text
@@ -33,7 +34,7 @@ def functions(path):
 
 def kind(declaration):
     """What ctypes calls the C type."""
-    if "*" in declaration or "[" in declaration:
+    if "*" in declaration or "[" in declaration or "cage_visit" in declaration:
         return "pointer"
     words = declaration.replace("const ", "").split()
     return {
@@ -108,6 +109,7 @@ def test_struct_fields_are_the_headers():
         "SurveyResult": "cage_survey_result",
         "AtlasStruct": "cage_atlas",
         "ClassStruct": "cage_class",
+        "BoxStruct": "cage_atlas_box",
     }
     for struct in _native.STRUCTS:
         body = re.sub(r"\(\*(\w+)\)\([^;]*\)", r"\1", bodies[names[struct.__name__]])

@@ -164,8 +164,20 @@ class ClassStruct(ctypes.Structure):
         ("nodes", c_int32),
         ("low", c_int32 * 3),
         ("high", c_int32 * 3),
+        ("q", c_int32 * 4),
+        ("sine", c_int32),
         ("known", c_int32),
         ("pose", PoseStruct),
+    ]
+
+
+class BoxStruct(ctypes.Structure):
+    """cage_atlas_box."""
+
+    _fields_ = [
+        ("low", c_int32 * 3),
+        ("high", c_int32 * 3),
+        ("whole", c_int32),
     ]
 
 
@@ -182,6 +194,7 @@ STRUCTS = [
     SurveyResult,
     AtlasStruct,
     ClassStruct,
+    BoxStruct,
 ]  # numbered as CAGE_STRUCT_... in cage.h
 
 _p = c_void_p  # any address: an array's, a ctypes.byref, or None
@@ -207,10 +220,15 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], bool]] = {
     "cage_survey_run_with": (c_int32, [_p, c_int64, _p], False),
     "cage_survey_result_of": (POINTER(SurveyResult), [_p], False),
     "cage_survey_atlas": (c_size_t, [_p, _p, c_size_t], False),
+    "cage_survey_facts": (c_size_t, [_p, _p, c_size_t], False),
+    "cage_survey_learn": (c_int32, [_p, _p, c_size_t], False),
+    "cage_survey_part": (c_int32, [_p, c_int32, c_int32], True),
     "cage_atlas_open": (c_int32, [_p, _p, c_size_t], True),
     "cage_atlas_ask": (c_int32, [_p, _p, _p], True),
     "cage_atlas_locate": (c_int32, [_p, _p, c_int32], False),
     "cage_atlas_class": (c_int32, [_p, c_int32, c_int32, _p], True),
+    "cage_atlas_cell": (c_int32, [_p, c_int32, _p, _p], True),
+    "cage_atlas_boxes": (c_int64, [_p, c_int32, c_int32, c_int32, c_int32, _p, _p], True),
     "cage_abi": (c_int32, [], False),
     "cage_struct_size": (c_size_t, [c_int32], False),
     "cage_verdict_text": (c_char_p, [c_int32], False),

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import ctypes
+import math
 import os
 import struct
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _native, grid as grids
-from .errors import AtlasError, InputError, OutOfMemoryError, PoseError
+from . import _native, grid as grids, surveys
+from .errors import AtlasError, InputError, PoseError
+from .pool import ExecutorLike
 from .poses import (
     Ints,
     Pose,
@@ -24,7 +25,7 @@ from .poses import (
     poses as read_poses,
 )
 from .poses import Poses, to_grid
-from .proof import MEMORY, Crew, reachable, run_all
+from .proof import MEMORY, Crew, reachable
 from .result import Verdict
 
 if TYPE_CHECKING:
@@ -38,7 +39,9 @@ class Class:
     """A connected class of poses on one side. Class 0 is the outside's: low and high are zeros
     there.
 
-    low, high: a box around all places of the pivot in it, metres. pose: one of its poses.
+    low, high: a box around all places of the pivot in it, metres. middle, turn: all its rotations
+    are within the angle turn (radians; pi: they may be any) of the rotation of the pose middle.
+    pose: one of its poses.
     """
 
     number: int
@@ -46,6 +49,8 @@ class Class:
     nodes: int
     low: tuple[float, ...]
     high: tuple[float, ...]
+    middle: Pose
+    turn: float
     pose: Pose | None
 
 
@@ -193,7 +198,10 @@ class Atlas:
             low, high = (
                 tuple(value * self.unit for value in box[: self.dim]) for box in (raw.low, raw.high)
             )
-            made.append(Class(index, raw.cells, raw.nodes, low, high, pose))
+            q = [*raw.q] if any(raw.q) else [1, 0, 0, 0]
+            middle = from_grid(np.array([[0, 0, 0, *q]], dtype=np.int32), self.dim, self.unit)[0]
+            turn = 2 * math.asin(min(raw.sine / 2.0**30, 1.0))
+            made.append(Class(index, raw.cells, raw.nodes, low, high, middle, turn, pose))
         return made
 
 
@@ -221,6 +229,10 @@ def make(
     progress: bool = False,
     insist: bool = False,
     far: float = 0.0,
+    executor: ExecutorLike | None = None,
+    parts: int = 16,
+    retries: int = 3,
+    checkpoint: str | os.PathLike[str] | None = None,
 ) -> Atlas:
     """Make the atlas of a scene.
 
@@ -228,6 +240,9 @@ def make(
     budget: 0, or cells are cut where the two sides disagree until that many were made.
     far: poses with coordinates up to so many metres will be asked; four times the scene's own reach
     always fit, at the cost of two bits of the grid.
+    executor: slices are made in that many parts on any concurrent.futures.Executor, or on what a
+    function makes; here is left to do what is between the parts. The atlas is the same bytes.
+    retries, checkpoint: as in prove_many.
     Other arguments as in Scene.prove. Ctrl-C stops it.
     """
     chosen, use, _, note = scene._permit(side, insist)
@@ -250,56 +265,13 @@ def make(
         )
     size = min(max(size, 64 << 20), most)
     pairs = len(made.arrays[1]) * len(made.arrays[3])
+    facts: list[bytes] = []
+    if executor is not None:
+        facts = surveys.parts(made, plan, most, executor, parts, retries, checkpoint)
+    crew = Crew(threads, pairs)
     if not progress:
-        return Atlas(_survey(made, plan, size, most, Crew(threads, pairs), None))
+        return Atlas(surveys.atlas(made, plan, size, most, crew, facts, None))
     from tqdm.auto import tqdm
 
     with tqdm(desc="atlas", unit=" slices") as bar:
-        return Atlas(_survey(made, plan, size, most, Crew(threads, pairs), bar))
-
-
-def _survey(
-    made: grids.Grid, plan: _native.Plan, size: int, most: int, crew: Crew, bar: Any
-) -> bytes:
-    lib, sides = _native.lib, bin(plan.side).count("1")
-    while True:
-        block = np.empty(size, dtype=np.uint8)
-        handle = ctypes.c_void_p()
-        lib.cage_survey_begin(
-            ctypes.byref(handle),
-            ctypes.byref(made.struct),
-            ctypes.byref(plan),
-            ctypes.c_void_p(block.ctypes.data),
-            size,
-        )
-
-        def step(count: int, workers: Any, handle: ctypes.c_void_p = handle) -> int:
-            state: int = lib.cage_survey_run_with(handle, count, workers)
-            return state
-
-        def show(handle: ctypes.c_void_p = handle) -> None:
-            work = lib.cage_survey_result_of(handle).contents
-            bar.total = max(work.leaves * sides, 1)
-            bar.n = work.slices[0] + work.slices[1]
-            bar.refresh()
-
-        shown: Callable[[], None] | None = None if bar is None else show
-        state = run_all(step, crew, shown)
-        raw = lib.cage_survey_result_of(handle).contents
-        if state == 1:
-            out = np.empty(int(raw.atlas_bytes), dtype=np.uint8)
-            if lib.cage_survey_atlas(handle, ctypes.c_void_p(out.ctypes.data), len(out)) != len(
-                out
-            ):
-                raise AtlasError("the atlas could not be written. This is a bug; please report it")
-            return out.tobytes()
-        if state != _native.OUT_OF_MEMORY:
-            raise _native.failure(state, "cage_survey_run")
-        needed = int(raw.needed_bytes)
-        if needed > most or size >= most:
-            raise OutOfMemoryError(
-                f"the atlas needs a block of {needed} bytes or more, and {most} are "
-                "allowed: pass memory=..., or a lower level",
-                needed=needed,
-            )
-        size = min(max(needed, 2 * size), most)
+        return Atlas(surveys.atlas(made, plan, size, most, crew, facts, bar))

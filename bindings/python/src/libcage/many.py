@@ -8,23 +8,16 @@ worked out again.
 from __future__ import annotations
 
 import hashlib
-import json
 import os
-import tempfile
-from collections.abc import Callable, Iterable
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from functools import cache
-from pathlib import Path
-from typing import Any, Union
+from typing import Any
 
-from . import _native
-from .errors import CageError, InputError
+from .errors import InputError
+from .pool import Checkpoint, ExecutorLike, library_hash, run_jobs
 from .poses import PoseLike
 from .result import Result
 from .scene import Scene
-
-ExecutorLike = Union[Executor, Callable[[], Executor]]
 
 
 @dataclass(frozen=True)
@@ -59,7 +52,7 @@ class Question:
             use, *(self.options.get(name) for name in ("start_level", "max_level", "max_cells"))
         )
         parts = [
-            _library(),
+            library_hash(),
             about.encode(),
             note.encode(),
             repr(made.unit).encode(),
@@ -74,76 +67,11 @@ class Question:
         return digest.hexdigest()
 
 
-@cache
-def _library() -> bytes:
-    return hashlib.sha256(_native.library_path().read_bytes()).digest()
-
-
 def answer(question: Question) -> bytes:
     """Result.to_bytes of one question: what a worker runs, on one core."""
     return question.scene.prove(
         question.start, question.goal, threads=1, **question.options
     ).to_bytes()
-
-
-class Checkpoint:
-    """A folder of answers, one file each, written beside and moved into place."""
-
-    def __init__(self, folder: str | os.PathLike[str]) -> None:
-        self.folder = Path(folder)
-        self.folder.mkdir(parents=True, exist_ok=True)
-
-    def load(self, key: str) -> bytes | None:
-        """The answer kept under that key, or None: not there, cut off, or changed."""
-        try:
-            raw = json.loads((self.folder / f"{key}.json").read_text(encoding="ascii"))
-            data = raw["answer"].encode()
-            if (
-                raw["key"] == key
-                and raw["sha256"] == hashlib.sha256(key.encode() + data).hexdigest()
-            ):
-                return bytes(data)
-        except (OSError, ValueError, KeyError, TypeError, AttributeError):
-            pass
-        return None
-
-    def save(self, key: str, data: bytes) -> None:
-        """Keep an answer."""
-        raw = {
-            "key": key,
-            "sha256": hashlib.sha256(key.encode() + data).hexdigest(),
-            "answer": data.decode(),
-        }
-        with tempfile.NamedTemporaryFile(
-            "w", dir=self.folder, suffix=".part", delete=False
-        ) as file:
-            json.dump(raw, file)
-        os.replace(file.name, self.folder / f"{key}.json")
-
-
-class _Pool:
-    """An executor, or what makes one when the last is broken."""
-
-    def __init__(self, given: ExecutorLike) -> None:
-        self.make = None if isinstance(given, Executor) else given
-        self.executor = given if isinstance(given, Executor) else given()
-
-    def submit(self, question: Question) -> Future[bytes]:
-        try:
-            return self.executor.submit(answer, question)
-        except (BrokenExecutor, RuntimeError) as error:
-            if self.make is None:
-                raise RuntimeError(
-                    "the executor is broken and cannot be had again; pass what makes one, "
-                    "executor=lambda: ProcessPoolExecutor(...), not the executor"
-                ) from error
-            self.executor.shutdown(wait=False, cancel_futures=True)
-            self.executor = self.make()
-            return self.executor.submit(answer, question)
-
-    def close(self) -> None:
-        if self.make is not None:
-            self.executor.shutdown(wait=True, cancel_futures=True)
 
 
 def prove_many(
@@ -190,41 +118,9 @@ def prove_many(
         if executor is None:
             for index in left:
                 keep(index, answer(todo[index]))
-        elif left:
-            _run(todo, left, _Pool(executor), retries, keep)
+        else:
+            run_jobs(answer, todo, left, executor, retries, keep)
     finally:
         if bar is not None:
             bar.close()
     return [Result.from_bytes(done[index]) for index in range(len(todo))]
-
-
-def _run(
-    todo: list[Question],
-    left: list[int],
-    pool: _Pool,
-    retries: int,
-    keep: Callable[[int, bytes], None],
-) -> None:
-    tries = dict.fromkeys(left, 0)
-    running: dict[Future[bytes], int] = {}
-    try:
-        for index in left:
-            running[pool.submit(todo[index])] = index
-        while running:
-            for future in wait(running, return_when=FIRST_COMPLETED).done:
-                index = running.pop(future)
-                try:
-                    data = future.result()
-                except CageError:
-                    raise  # the same everywhere: no other worker would help
-                except Exception:
-                    tries[index] += 1
-                    if tries[index] > retries:
-                        raise
-                    running[pool.submit(todo[index])] = index
-                else:
-                    keep(index, data)
-    finally:
-        for future in running:
-            future.cancel()
-        pool.close()
