@@ -84,8 +84,11 @@ static int32_t next_leaf(const cage_atlas *atlas, struct descent *at, const int3
 /* The class of the pivot's place on a side: on the inner side covered if it is over any cell, on the outer if over all. */
 static int32_t class_at(const cage_atlas *atlas, const int32_t q[4], const int32_t at[3], int32_t side)
 {
-    struct descent descent = {{0, 0, {0, 0, 0}}, {cage_read_word(atlas, CAGE_ATLAS_CELL)}, {0}, 0};
+    const struct cage_cell none = {-1, 0, {0, 0, 0}};
+    struct descent descent;
     int32_t class = CAGE_NO_CLASS, leaf;
+    descent.depth = -1;
+    descend(&descent, &none, cage_read_word(atlas, CAGE_ATLAS_CELL));
     while ((leaf = next_leaf(atlas, &descent, q)) >= 0) {
         uint32_t entry = cage_read_side(atlas, side, CAGE_SIDE_LEAF) + 2 * (uint32_t)leaf;
         int32_t component = component_at(atlas, cage_read_word(atlas, entry), at);
