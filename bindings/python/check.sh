@@ -20,7 +20,7 @@ wheel=$(echo "$build"/dist/libcage-*-py3-none-*.whl)
 echo "built $(basename "$wheel")"
 "$build/venv/bin/python" -m pip install -q "$wheel[test]"
 
-cp -R bindings/python/tests bindings/python/pyproject.toml bindings/python/native examples include README.md "$folder"
+cp -R bindings/python/tests bindings/python/bench.py bindings/python/pyproject.toml bindings/python/native examples include README.md "$folder"
 cd "$folder"
 LIBCAGE_EXAMPLES=$folder/examples/python
 LIBCAGE_SOURCES=$folder
@@ -33,3 +33,4 @@ fi
 "$build/venv/bin/python" -m mypy --strict --config-file pyproject.toml -p libcage
 "$build/venv/bin/python" -m mypy --strict --config-file pyproject.toml tests/typed.py
 "$build/venv/bin/python" -m pytest -p no:cacheprovider --durations=5 tests
+"$build/venv/bin/python" bench.py
