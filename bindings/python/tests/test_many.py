@@ -5,6 +5,7 @@ import signal
 import time
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
@@ -160,7 +161,9 @@ def test_what_the_library_refuses_is_raised_at_once(tmp_path):
         Question(bad.scene, (0, 0, 0), options={"threads": 3})
 
 
-def test_dask_with_a_worker_that_is_killed_gives_the_same_bytes(wanted):
+@contextmanager
+def two_workers():
+    """A Dask client of two processes."""
     distributed = pytest.importorskip("distributed")
     with (
         distributed.LocalCluster(
@@ -172,6 +175,11 @@ def test_dask_with_a_worker_that_is_killed_gives_the_same_bytes(wanted):
         ) as cluster,
         distributed.Client(cluster) as client,
     ):
+        yield client
+
+
+def test_dask_with_a_worker_that_is_killed_gives_the_same_bytes(wanted):
+    with two_workers() as client:
         pids = client.run(os.getpid)
         assert len(set(pids.values())) == 2
         killed = []
@@ -218,19 +226,9 @@ def test_an_atlas_in_parts_has_the_same_bytes(tmp_path):
 
 
 def test_an_atlas_on_dask_with_a_worker_killed_has_the_same_bytes():
-    distributed = pytest.importorskip("distributed")
     scene = Scene([[0, 0, 0.03], [0.05, 0, 0.02]], [[0.1, 0, 0.05], [-0.1, 0.02, 0.06]])
     whole = scene.atlas(7).to_bytes()
-    with (
-        distributed.LocalCluster(
-            n_workers=2,
-            threads_per_worker=1,
-            processes=True,
-            dashboard_address=None,
-            memory_limit=0,
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
+    with two_workers() as client:
         executor = client.get_executor(pure=False)
         submit, count = executor.submit, [0]
 
