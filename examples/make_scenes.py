@@ -17,7 +17,7 @@ def write(name, comment, balls):
             out.write("# %s\n" % line)
         out.write("# %d balls: %s r\n" % (len(balls), " ".join("xyz"[:len(balls[0]) - 1])))
         for ball in balls:
-            out.write(" ".join("%.6g" % (number + 0.0) for number in ball) + "\n")
+            out.write(" ".join("%.6g" % (round(number, 12) + 0.0) for number in ball) + "\n")
     print("%-28s %3d balls" % (name, len(balls)))
 
 

@@ -119,7 +119,8 @@ typedef struct cage_result {
     int32_t verdict;        /* CAGE_CAGED, ... */
     int32_t reason;         /* CAGE_REASON_... */
     int32_t level;          /* of the finest cell made */
-    int32_t cells;          /* cells made, refined ones included */
+    int32_t cells;          /* cells made, refined ones included; without a goal, up to half turns that leave the object's balls
+                               where they are */
     int32_t slices[2];      /* slices built */
     int32_t gluings[2];     /* pairs of neighbouring slices glued, counted for each connected group of components */
     int32_t mixtures[2];    /* gluings that needed a triangulation of their own */
@@ -161,7 +162,7 @@ size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits);
     ((dim) == 2 ? CAGE_PROVE_BYTES_OF_ONE(objects, 600ul * (objects) * (obstacles), 1ul * (max_cells))                    \
                 : 3 * CAGE_PROVE_BYTES_OF_ONE(objects, 1400ul * (objects) * (obstacles), ((max_cells) + 1ul) / 2))
 #define CAGE_PROVE_BYTES_OF_ONE(objects, work, cells)                                                                     \
-    (2304 + 40ul * (objects) + 112 * (cells) +                                                                            \
+    (2560 + 64ul * (objects) + 112 * (cells) +                                                                            \
      4 * ((work) / 2 + 16384 > 32768 + 64 * (cells) ? (work) / 2 + 16384 : 32768 + 64 * (cells)))
 
 /* Ask: can the object leave the start (goal null), or get from start to goal? The scene's balls are

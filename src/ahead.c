@@ -118,7 +118,8 @@ static void work(void *data, int32_t index, int32_t worker)
     } else {
         const struct cage_slice *c = slice_of(ahead, unit, unit->a), *d = slice_of(ahead, unit, unit->b);
         if (c && d)
-            error = cage_glue(arena, c, d, unit->seed, &unit->touch, &unit->count, &unit->mixed);
+            error = cage_glue_matched(arena, c, d, cage_proof_match(unit->proof, unit->side, unit->a, unit->b), unit->seed,
+                                      &unit->touch, &unit->count, &unit->mixed);
     }
     unit->done = error == CAGE_OK;
     unit->used = arena->used - mark;

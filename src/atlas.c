@@ -162,7 +162,13 @@ static void put_all(struct cage_pen *pen, const struct cage_survey *survey)
         cage_words_put_at(pen, CAGE_ATLAS_NOTE + i, (uint32_t)survey->plan.note[i]);
     put_balls(pen, CAGE_ATLAS_OBJECT, scene->dim, scene->object.inner, scene->object.inner_count);
     put_balls(pen, CAGE_ATLAS_OBSTACLE, scene->dim, survey->obstacle, scene->obstacles.inner_count);
-    int32_t largest = 0;
+    const struct cage_side *inner = &proof->side[CAGE_INNER];
+    int32_t largest = 0, extent = 0;
+    for (int32_t i = 0; i < inner->objects; i++) {
+        int32_t reach = inner->reach[i] + inner->object[i].r; /* <= CAGE_REACH: cage_scene_check */
+        extent = reach > extent ? reach : extent;
+    }
+    cage_words_put_at(pen, CAGE_ATLAS_EXTENT, (uint32_t)extent);
     for (int32_t i = 0; i < scene->obstacles.inner_count; i++)
         largest = survey->obstacle[i].r > largest ? survey->obstacle[i].r : largest;
     cage_words_put_at(pen, CAGE_ATLAS_LARGEST, (uint32_t)largest);

@@ -20,7 +20,8 @@ enum {
     CAGE_ATLAS_LARGEST = 37, /* the largest radius among them */
     CAGE_ATLAS_LEAF = 38,    /* where the leaves are told: its level and 16 times its face, then its
                                 place in the face, three words */
-    CAGE_ATLAS_HEAD = 39
+    CAGE_ATLAS_EXTENT = 39,  /* the object's inner balls lie within this of the pivot */
+    CAGE_ATLAS_HEAD = 40
 };
 
 /* A side: places, and how many. */
@@ -49,7 +50,7 @@ enum {
     CAGE_CLASS_WORDS = 17
 };
 
-enum { CAGE_ATLAS_MAGIC_WORD = 0x65676163 /* "cage" */, CAGE_ATLAS_FORMAT_WORD = 1 };
+enum { CAGE_ATLAS_MAGIC_WORD = 0x65676163 /* "cage" */, CAGE_ATLAS_FORMAT_WORD = 2 };
 
 /* Sort balls by x. */
 void cage_atlas_sort(cage_ball *ball, int32_t count);

@@ -51,7 +51,8 @@ static int64_t weight_of(const struct cage_view *view, int32_t site)
     return least < 0 ? -1 : least * least - move->sag;
 }
 
-int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, struct cage_view *view)
+int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, const int32_t *match,
+                       struct cage_view *view)
 {
     struct cage_view made = {c, d, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0, 0, CAGE_COVERED, false};
     made.move = cage_arena_take(arena, (size_t)c->parts, sizeof *made.move);
@@ -64,7 +65,7 @@ int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, con
     if (!made.move || !made.reached || !made.queue || !made.used || !made.solid || !made.home || !made.off)
         return CAGE_ERROR_MEMORY;
     for (int32_t i = 0; i < c->parts; i++)
-        made.move[i] = move_of(&c->part[i], &d->part[i]);
+        made.move[i] = move_of(&c->part[i], &d->part[match ? match[i] : i]);
     memset(made.used, 0, (size_t)c->t.sites * sizeof *made.used);
     memset(made.reached, 0, (size_t)c->t.simplices * sizeof *made.reached);
     memset(made.solid, -1, (size_t)c->t.simplices * sizeof *made.solid);

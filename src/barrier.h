@@ -22,7 +22,9 @@ struct cage_view {
     bool outer;      /* whether it reached a simplex with a sentinel, or (of a small component) very many, and then went no further */
 };
 
-int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, struct cage_view *view);
+/* match: see cage_glue_matched; any balls that are as large will do. */
+int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, const int32_t *match,
+                       struct cage_view *view);
 
 /* Put the simplices of component k in the queue; a spread of its own. */
 void cage_view_collect(struct cage_view *view, int32_t k);

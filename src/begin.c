@@ -32,8 +32,8 @@ static int32_t limits_check(const cage_limits *limits, int32_t dim)
 }
 
 /* The coarsest level at which the object's farthest ball moves by no more than half the radius of a usual
- * collision ball: in coarser cells the inner balls shrink to little, and what is left has holes everywhere. In space,
- * twice the radius: there a level too fine costs 8 times as much, and one too coarse is soon found out. */
+ * collision ball: in coarser cells the inner balls shrink to little, and what is left has holes everywhere. For a proof in
+ * space, twice the radius: there a level too fine costs 8 times as much, and one too coarse is soon found out. */
 static int32_t first_level(const struct cage_proof *proof)
 {
     const struct cage_side *side = &proof->side[CAGE_INNER];
@@ -51,9 +51,9 @@ static int32_t first_level(const struct cage_proof *proof)
         sum += side->object[a].r;
     radius += sum / side->objects;
     struct cage_cell cell = {0, 0, {0, 0, 0}};
-    int64_t most = proof->scene.dim == 2 ? radius / 2 : 2 * radius;
+    int64_t most = proof->scene.dim == 2 || proof->all ? radius / 2 : 2 * radius;
     while (level < proof->limits.max_level && cage_displacement(proof->graph.fibre->turn(&cell), reach) > most) {
-        proof->graph.fibre->child(&cell, 0, &cell);
+        cage_cell_child(&cell, 0, &cell);
         level++;
     }
     /* All cells down to that level: roots (1 + c + ... + c^level) < 2 roots c^level. */
@@ -69,8 +69,8 @@ static int32_t first_level(const struct cage_proof *proof)
 static uint64_t fixed_bytes(const cage_scene *scene, const cage_limits *limits)
 {
     uint64_t objects = (uint64_t)scene->object.inner_count + (uint64_t)scene->object.outer_count;
-    return sizeof(struct cage_proof) + objects * (sizeof(cage_ball) + sizeof(int32_t)) +
-           ((uint64_t)limits->max_cells + CAGE_CELL_ROOT) * sizeof(struct cage_leaf) + 16 * CAGE_ALIGN;
+    return sizeof(struct cage_proof) + objects * (sizeof(cage_ball) + CAGE_TURNS * sizeof(int32_t)) +
+           ((uint64_t)limits->max_cells + CAGE_CELL_ROOT) * sizeof(struct cage_leaf) + 24 * CAGE_ALIGN;
 }
 
 /* To work in: a mixture of two slices has 2 pairs balls, at most 4 triangles each while building; in space usually less than
@@ -159,7 +159,7 @@ static void share_limits(const cage_limits *limits, cage_limits *first, cage_lim
 static size_t bytes_of_second(size_t bytes) { return bytes / 3; }
 
 /* CAGE_PROVE_BYTES takes these to be large enough; else this divides by 0. */
-enum { HEAD_BYTES = sizeof(struct cage_proof) + 16 * CAGE_ALIGN, CELL_BYTES = sizeof(struct cage_leaf) };
+enum { HEAD_BYTES = sizeof(struct cage_proof) + 24 * CAGE_ALIGN, CELL_BYTES = sizeof(struct cage_leaf) };
 enum { PROVE_BYTES_HOLDS = 1 / (HEAD_BYTES <= 2048 && CELL_BYTES <= 112 ? 1 : 0) };
 
 size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits)
@@ -221,6 +221,25 @@ static void set_ends(struct cage_proof *proof, const cage_pose *start, const cag
     proof->graph.cells = CAGE_CELL_ROOT;
 }
 
+/* Half turns that take the object to itself. The pose (x, R g) of such a turn g touches what (x, R) touches, so g maps free space
+ * to itself and the way out of one pose to that of the other: a pose is caged iff it is up to these turns, and a slice
+ * serves for R and R g. (With a goal it is not asked: a way to an image of the goal is none to the goal.) */
+static int32_t find_turns(struct cage_proof *proof)
+{
+    struct cage_graph *graph = &proof->graph;
+    graph->turns = 1;
+    graph->turn[0] = 0;
+    for (int32_t turn = 1; turn < CAGE_TURNS && proof->scene.dim == 3 && !graph->goal && !proof->all; turn++) {
+        int32_t inner = cage_side_turn(&proof->arena, turn, &proof->side[CAGE_INNER]);
+        int32_t outer = inner == 1 ? cage_side_turn(&proof->arena, turn, &proof->side[CAGE_OUTER]) : inner;
+        if (outer < 0)
+            return outer;
+        graph->turn[graph->turns] = turn;
+        graph->turns += outer;
+    }
+    return CAGE_OK;
+}
+
 static int32_t begin(struct cage_proof *proof, const cage_pose *start, const cage_pose *goal)
 {
     const cage_scene *scene = &proof->scene;
@@ -237,6 +256,9 @@ static int32_t begin(struct cage_proof *proof, const cage_pose *start, const cag
     if (!proof->graph.cell)
         return CAGE_ERROR_MEMORY;
     set_ends(proof, start, goal);
+    int32_t error = find_turns(proof);
+    if (error != CAGE_OK)
+        return error;
     int32_t reach = scene->dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
     for (int32_t end = 0; end < CAGE_CELL_ROOT; end++)
         for (int32_t k = 0; k < 3; k++)

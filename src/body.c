@@ -34,6 +34,36 @@ static int32_t farthest(const cage_shape *object, const int32_t p[3], const cage
     return largest;
 }
 
+/* Where the middle of the box around all centres is as good in two coordinates, or better, it is taken: an object with a half
+ * turn has its axis there. */
+static void prefer_middle(const cage_shape *object, int32_t best, int32_t pivot[3])
+{
+    int32_t low[3] = {INT32_MAX, INT32_MAX, INT32_MAX}, high[3] = {INT32_MIN, INT32_MIN, INT32_MIN}, count;
+    for (int32_t sign = -1; sign <= 1; sign += 2) {
+        const cage_ball *ball = shape_balls(object, sign, &count);
+        for (int32_t i = 0; i < count; i++) {
+            const int32_t at[3] = {ball[i].x, ball[i].y, ball[i].z};
+            for (int32_t k = 0; k < 3; k++) {
+                low[k] = at[k] < low[k] ? at[k] : low[k];
+                high[k] = at[k] > high[k] ? at[k] : high[k];
+            }
+        }
+    }
+    for (int32_t axis = 0; axis < 3; axis++) {
+        const cage_ball *far;
+        int32_t p[3];
+        for (int32_t k = 0; k < 3; k++)
+            p[k] = k == axis ? pivot[k] : (low[k] + high[k]) / 2; /* < 2^29 */
+        int32_t size = farthest(object, p, &far);
+        if (size > best)
+            continue;
+        best = size;
+        pivot[0] = p[0];
+        pivot[1] = p[1];
+        pivot[2] = p[2];
+    }
+}
+
 /* Badoiu and Clarkson, "Smaller core-sets for balls", SODA 2003: step 1/(n+1) of the way to the farthest centre. */
 void cage_pivot(const cage_shape *object, int32_t pivot[3])
 {
@@ -54,6 +84,8 @@ void cage_pivot(const cage_shape *object, int32_t pivot[3])
             pivot[2] = p[2];
         }
     }
+    if (pivot[0] || pivot[1] || pivot[2])
+        prefer_middle(object, best, pivot);
 }
 
 int32_t cage_side_make(struct cage_arena *arena, const cage_scene *scene, const int32_t pivot[3], int32_t sign,
@@ -73,10 +105,47 @@ int32_t cage_side_make(struct cage_arena *arena, const cage_scene *scene, const 
     }
     out->object = ball;
     out->reach = reach;
+    for (int32_t t = 0; t < 4; t++)
+        out->image[t] = NULL;
     out->obstacle = shape_balls(&scene->obstacles, sign, &out->obstacles);
     out->dim = scene->dim;
     out->sign = sign;
     return CAGE_OK;
+}
+
+/* More balls are not compared: 2^22 pairs take some milliseconds. */
+enum { TURNED_BALLS = 2048 };
+
+/* The ball at the place that the half turn takes ball i to; -1: there is none. */
+static int32_t image_of(const struct cage_side *side, int32_t turn, int32_t i)
+{
+    const cage_ball *from = &side->object[i];
+    const int32_t x = turn == 1 ? from->x : -from->x, y = turn == 2 ? from->y : -from->y, z = turn == 3 ? from->z : -from->z;
+    for (int32_t k = 0; k < side->objects; k++) {
+        const cage_ball *to = &side->object[k];
+        if (to->x == x && to->y == y && to->z == z && to->r == from->r)
+            return k;
+    }
+    return -1;
+}
+
+int32_t cage_side_turn(struct cage_arena *arena, int32_t turn, struct cage_side *side)
+{
+    if (side->objects > TURNED_BALLS)
+        return 0;
+    size_t mark = arena->used;
+    int32_t *image = cage_arena_take(arena, (size_t)side->objects, sizeof *image);
+    if (!image)
+        return CAGE_ERROR_MEMORY;
+    for (int32_t i = 0; i < side->objects; i++) {
+        image[i] = image_of(side, turn, i);
+        if (image[i] < 0) {
+            cage_arena_release(arena, mark);
+            return 0;
+        }
+    }
+    side->image[turn] = image;
+    return 1;
 }
 
 static int32_t reach_limit(int32_t dim) { return dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D; }
@@ -174,13 +243,7 @@ void cage_pose_pivot(const cage_pose *pose, const int32_t pivot[3], int32_t out[
 /* |N (x - X) + M y| < N (R + r) with the integer matrix M = N R(q), N = |q|^2 <= 2^62: terms < 2^62 2^30 + 3 2^62 2^28. */
 bool cage_pair_collides(const cage_pose *pose, const cage_ball *y, const cage_ball *x)
 {
-    int64_t w = pose->q[0], i = pose->q[1], j = pose->q[2], k = pose->q[3];
-    int64_t ww = w * w, ii = i * i, jj = j * j, kk = k * k, norm = ww + ii + jj + kk;
-    const int64_t m[3][3] = {
-        {ww + ii - jj - kk, 2 * (i * j - w * k), 2 * (i * k + w * j)},
-        {2 * (i * j + w * k), ww - ii + jj - kk, 2 * (j * k - w * i)},
-        {2 * (i * k - w * j), 2 * (j * k + w * i), ww - ii - jj + kk},
-    };
+    int64_t m[3][3], norm = cage_rotation_scaled(pose->q, m);
     const int64_t apart[3] = {(int64_t)pose->x[0] - x->x, (int64_t)pose->x[1] - x->y, (int64_t)pose->x[2] - x->z};
     cage_i128 n[3];
     for (int32_t a = 0; a < 3; a++) {

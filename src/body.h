@@ -19,6 +19,7 @@ struct cage_side {
     int32_t obstacles;
     int32_t dim;
     int32_t sign; /* -1: inner, +1: outer (see cage_radius_change) */
+    const int32_t *image[4]; /* [t]: for each ball, the one that half turn t about an axis takes it to; null: not looked for */
 };
 
 /* The pivot: an integer point near the centre of the smallest ball around the centres of all of the object's balls, or
@@ -28,6 +29,10 @@ void cage_pivot(const cage_shape *object, int32_t pivot[3]);
 /* Copies the object's balls, moved, into the arena. */
 int32_t cage_side_make(struct cage_arena *arena, const cage_scene *scene, const int32_t pivot[3], int32_t sign,
                        struct cage_side *out);
+
+/* Does half turn t (1 to 3: about axis t - 1 through the pivot) take the object's balls to themselves? 1: yes, and image[t] is
+ * taken from the arena; 0: no, or there are so many that it was not looked for; CAGE_ERROR_MEMORY. */
+int32_t cage_side_turn(struct cage_arena *arena, int32_t turn, struct cage_side *side);
 
 /* CAGE_OK, or what is wrong with the pose: entries against CAGE_REACH and CAGE_QUATERNION. */
 int32_t cage_pose_check(int32_t dim, const cage_pose *pose);

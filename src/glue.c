@@ -229,8 +229,8 @@ static void add_all(struct group *group)
     add_member(group, 1, CAGE_OUTSIDE);
 }
 
-static int32_t make_group(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, int32_t seed,
-                          int32_t room, struct group *group)
+static int32_t make_group(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, const int32_t *match,
+                          int32_t seed, int32_t room, struct group *group)
 {
     memset(group, 0, sizeof *group);
     group->arena = arena;
@@ -244,7 +244,7 @@ static int32_t make_group(struct cage_arena *arena, const struct cage_slice *c, 
     for (int32_t side = 0; side < 2; side++) {
         const struct cage_slice *slice = group->slice[side];
         group->seen[side] = cage_arena_take(arena, (size_t)slice->regions, sizeof *group->seen[side]);
-        if (!group->seen[side] || cage_view_make(arena, slice, group->slice[1 - side], &group->view[side]) != CAGE_OK)
+        if (!group->seen[side] || cage_view_make(arena, slice, group->slice[1 - side], match, &group->view[side]) != CAGE_OK)
             return CAGE_ERROR_MEMORY;
         memset(group->seen[side], 0, (size_t)slice->regions);
     }
@@ -258,11 +258,17 @@ static int32_t make_group(struct cage_arena *arena, const struct cage_slice *c, 
 int32_t cage_glue(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, int32_t seed,
                   struct cage_touch **touch, int32_t *count, int32_t *mixed)
 {
+    return cage_glue_matched(arena, c, d, NULL, seed, touch, count, mixed);
+}
+
+int32_t cage_glue_matched(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, const int32_t *match,
+                          int32_t seed, struct cage_touch **touch, int32_t *count, int32_t *mixed)
+{
     size_t mark = arena->used;
     for (int32_t room = 2 * (c->regions + d->regions);; room *= 2) {
         struct group group;
         *mixed = 0;
-        int32_t error = make_group(arena, c, d, seed, room, &group);
+        int32_t error = make_group(arena, c, d, match, seed, room, &group);
         if (error == CAGE_OK)
             error = glue_group(&group, mixed);
         cage_arena_release(arena, mark);

@@ -18,6 +18,11 @@ struct cage_touch {
 int32_t cage_glue(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, int32_t seed,
                   struct cage_touch **touch, int32_t *count, int32_t *mixed);
 
+/* The same where object ball i of c is nearest to ball match[i] of d, which is as large; null: to itself. Never matters to the
+ * answer, but to how soon it is found. */
+int32_t cage_glue_matched(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, const int32_t *match,
+                          int32_t seed, struct cage_touch **touch, int32_t *count, int32_t *mixed);
+
 #define CAGE_ALL (-1)
 
 #endif

@@ -25,18 +25,32 @@ bool cage_graph_refine(struct cage_graph *graph, int32_t cell)
     graph->cell[cell].child = graph->cells;
     for (int32_t i = 0; i < graph->fibre->children; i++) {
         struct cage_cell child;
-        graph->fibre->child(&graph->cell[cell].cell, i, &child);
+        cage_cell_child(&graph->cell[cell].cell, i, &child);
         add_cell(graph, &child, cell);
     }
     return true;
 }
 
+/* The faces that are the least of their images. */
+static void choose_roots(struct cage_graph *graph)
+{
+    graph->roots = 0;
+    for (int32_t face = 0; face < graph->fibre->roots; face++) {
+        bool least = true;
+        for (int32_t i = 1; i < graph->turns; i++)
+            least = least && face < (face ^ graph->turn[i]);
+        graph->root[graph->roots] = face;
+        graph->roots += least;
+    }
+}
+
 bool cage_graph_init(struct cage_graph *graph, int32_t level)
 {
-    if (graph->fibre->roots + CAGE_CELL_ROOT > graph->capacity)
+    choose_roots(graph);
+    if (graph->roots + CAGE_CELL_ROOT > graph->capacity)
         return false;
-    for (int32_t face = 0; face < graph->fibre->roots; face++) {
-        const struct cage_cell root = {0, face, {0, 0, 0}};
+    for (int32_t i = 0; i < graph->roots; i++) {
+        const struct cage_cell root = {0, graph->root[i], {0, 0, 0}};
         add_cell(graph, &root, -1);
     }
     for (int32_t cell = CAGE_CELL_ROOT; cell < graph->cells; cell++)
@@ -45,11 +59,30 @@ bool cage_graph_init(struct cage_graph *graph, int32_t level)
     return true;
 }
 
+/* `cell` may be start or goal. */
+static bool touches_turned(const struct cage_graph *graph, int32_t cell, int32_t other, int32_t turn)
+{
+    struct cage_cell image = graph->cell[other].cell;
+    if (turn)
+        cage_so3_turned_cell(&graph->cell[other].cell, turn, &image);
+    if (cell < CAGE_CELL_ROOT)
+        return graph->fibre->contains(&image, graph->cell[cell].rotations.q);
+    return graph->fibre->touch(&graph->cell[cell].cell, &image);
+}
+
+/* A half turn is its own inverse. */
+int32_t cage_graph_turn(const struct cage_graph *graph, int32_t cell, int32_t turned, int32_t other)
+{
+    bool back = other < CAGE_CELL_ROOT;
+    for (int32_t i = 0; i < graph->turns; i++)
+        if (touches_turned(graph, back ? other : cell, back ? cell : other, graph->turn[i]))
+            return turned ^ graph->turn[i];
+    return -1;
+}
+
 static bool touches(const struct cage_graph *graph, int32_t cell, int32_t other)
 {
-    if (cell < CAGE_CELL_ROOT)
-        return graph->fibre->contains(&graph->cell[other].cell, graph->cell[cell].rotations.q);
-    return graph->fibre->touch(&graph->cell[cell].cell, &graph->cell[other].cell);
+    return cage_graph_turn(graph, cell, 0, other) >= 0;
 }
 
 /* The tree's next cell in depth first order that is not below `cell`; -1: no more. */
@@ -58,7 +91,7 @@ static int32_t skip_below(const struct cage_graph *graph, int32_t cell)
     for (;;) {
         int32_t parent = graph->cell[cell].parent;
         int32_t first = parent < 0 ? CAGE_CELL_ROOT : graph->cell[parent].child;
-        int32_t siblings = parent < 0 ? graph->fibre->roots : graph->fibre->children;
+        int32_t siblings = parent < 0 ? graph->roots : graph->fibre->children;
         if (cell + 1 < first + siblings)
             return cell + 1;
         if (parent < 0)

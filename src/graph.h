@@ -59,8 +59,12 @@ struct cage_leaf {
     struct cage_facts facts[CAGE_SIDES];
 };
 
+/* Cells stand for their images under the half turns `turn` as well, by which no slice changes: a group of 1, 2 or 4, the first
+ * of which is none; so that fewer faces are needed as roots. In the plane there is none but the first. */
 struct cage_graph {
     const struct cage_fibre *fibre;
+    int32_t turn[CAGE_TURNS], turns;
+    int32_t root[CAGE_TURNS], roots; /* faces, once the graph was made */
     struct cage_leaf *cell;
     int32_t cells;
     int32_t capacity;
@@ -69,14 +73,17 @@ struct cage_graph {
     struct cage_arena *arena; /* facts are kept for ever */
 };
 
-/* The fibre's root cells, cut down to the level. False when there is no room for the cells. */
+/* The root cells that the turns leave, cut down to the level. False when there is no room for the cells. */
 bool cage_graph_init(struct cage_graph *graph, int32_t level);
+
+/* By which half turn is the image of `other` a neighbour of the image of `cell` by the half turn `turned`? -1: by none. */
+int32_t cage_graph_turn(const struct cage_graph *graph, int32_t cell, int32_t turned, int32_t other);
 
 /* Replace a leaf by its children. False when there is no room. */
 bool cage_graph_refine(struct cage_graph *graph, int32_t cell);
 
-/* The next leaf after `after` (-1: the first) whose closed cell shares a facet with that of `cell` or, for start and
- * goal, holds it. -1: no more. Start and goal are not neighbours of each other. */
+/* The next leaf after `after` (-1: the first) whose closed cell, or an image of it, shares a facet with that of `cell` or, for
+ * start and goal, holds it. -1: no more. Start and goal are not neighbours of each other. */
 int32_t cage_graph_neighbour(const struct cage_graph *graph, int32_t cell, int32_t after);
 
 /* The next leaf after `after` (-1: the first) in the order of the tree, start and goal left out; -1: no more. */

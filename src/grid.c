@@ -4,15 +4,25 @@
 
 enum { MATRIX_BITS = 62, TURN_BITS = 31 };
 
+/* With v the vector part: w w - |v|^2 on the diagonal, 2 w times the cross product with v beside it, and 2 v v^T on all of it. */
+int64_t cage_rotation_scaled(const int32_t q[4], int64_t m[3][3])
+{
+    int64_t norm = 0, w = q[0]; /* <= 4 2^60 = 2^62, which no entry exceeds, and no sum on the way to it */
+    for (int32_t i = 0; i < 4; i++)
+        norm += (int64_t)q[i] * q[i];
+    for (int32_t i = 0; i < 3; i++) {
+        int32_t j = (i + 1) % 3, k = (i + 2) % 3;
+        int64_t a = q[i + 1], b = q[j + 1], c = q[k + 1];
+        m[i][i] = w * w + a * a - b * b - c * c;
+        m[i][j] = 2 * (a * b - w * c);
+        m[j][i] = 2 * (a * b + w * c);
+    }
+    return norm;
+}
+
 void cage_rotation_of(const int32_t q[4], struct cage_rotation *rotation)
 {
-    int64_t w = q[0], x = q[1], y = q[2], z = q[3];
-    int64_t ww = w * w, xx = x * x, yy = y * y, zz = z * z, norm = ww + xx + yy + zz; /* <= 4 2^60 = 2^62 */
-    const int64_t m[3][3] = {
-        {ww + xx - yy - zz, 2 * (x * y - w * z), 2 * (x * z + w * y)},
-        {2 * (x * y + w * z), ww - xx + yy - zz, 2 * (y * z - w * x)},
-        {2 * (x * z - w * y), 2 * (y * z + w * x), ww - xx - yy + zz},
-    };
+    int64_t m[3][3], norm = cage_rotation_scaled(q, m);
     /* |m| <= norm, so the shifted numerator is below 2^124. */
     for (int32_t i = 0; i < 3; i++)
         for (int32_t k = 0; k < 3; k++)

@@ -9,6 +9,9 @@ struct cage_rotation {
     int64_t m[3][3];
 };
 
+/* |q|^2, and the rotation's matrix times that, exact: entries at most |q|^2 in magnitude, those of q at most 2^30. */
+int64_t cage_rotation_scaled(const int32_t q[4], int64_t m[3][3]);
+
 /* From a quaternion that is not 0, entries at most 2^30 in magnitude. Exact for the quarter turns about the axes. */
 void cage_rotation_of(const int32_t q[4], struct cage_rotation *rotation);
 

@@ -28,6 +28,7 @@ void cage_path_begin(struct cage_proof *proof)
     for (; node->from; node = node->from)
         node->from->next_open = node;
     proof->leg = node;
+    proof->turned = 0;
 }
 
 /* The orthocentre of a simplex, rounded; false if it is too far away to be a way point. */
@@ -208,10 +209,22 @@ static void clip(struct cage_proof *proof)
     *last = to;
 }
 
+/* A rotation in both of two touching cells, each turned. */
+static void common_of(const struct cage_graph *graph, int32_t a, int32_t a_turned, int32_t b, int32_t b_turned, int32_t q[4])
+{
+    struct cage_cell first = graph->cell[a].cell, second = graph->cell[b].cell;
+    if (a_turned)
+        cage_so3_turned_cell(&graph->cell[a].cell, a_turned, &first);
+    if (b_turned)
+        cage_so3_turned_cell(&graph->cell[b].cell, b_turned, &second);
+    graph->fibre->common(&first, &second, q);
+}
+
 int32_t cage_path_step(struct cage_proof *proof)
 {
     struct cage_node *node = proof->leg, *next = node->next_open;
-    const int32_t *q = proof->graph.cell[node->cell].rotations.q;
+    int32_t q[4];
+    cage_so3_turned(proof->graph.cell[node->cell].rotations.q, proof->turned, q);
     const int32_t *enter = node->via ? node->via->x : proof->outer_at[proof->origin];
     const int32_t *leave = next ? next->via->x : proof->graph.goal ? proof->outer_at[1 - proof->origin] : NULL;
     const struct cage_slice *slice;
@@ -227,13 +240,16 @@ int32_t cage_path_step(struct cage_proof *proof)
     cage_arena_release(&proof->scratch, mark);
     if (error != CAGE_OK)
         return error;
-    proof->leg = next;
-    if (next && node->cell >= CAGE_CELL_ROOT && next->cell >= CAGE_CELL_ROOT) {
-        int32_t common[4];
-        proof->graph.fibre->common(&proof->graph.cell[node->cell].cell, &proof->graph.cell[next->cell].cell, common);
-        if (!append(proof, leave, common))
+    if (next) {
+        int32_t common[4], turned = cage_graph_turn(&proof->graph, node->cell, proof->turned, next->cell);
+        bool between = node->cell >= CAGE_CELL_ROOT && next->cell >= CAGE_CELL_ROOT;
+        if (between)
+            common_of(&proof->graph, node->cell, proof->turned, next->cell, turned, common);
+        if (between && !append(proof, leave, common))
             return CAGE_ERROR_MEMORY;
+        proof->turned = turned;
     }
+    proof->leg = next;
     if (next)
         return 0;
     if (!proof->graph.goal)

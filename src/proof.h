@@ -47,7 +47,8 @@ struct cage_proof {
     cage_pose *path;
     int32_t path_room;
     int32_t path_count;
-    struct cage_node *leg;      /* node of the way whose leg of the path comes next */
+    struct cage_node *leg;      /* node of the way whose leg of the path comes next, */
+    int32_t turned;             /* and the half turn by which its cell's image is meant */
     int32_t path_at, path_kept; /* while it is shortened: the pose that comes next, and how many are kept */
 };
 
@@ -80,6 +81,9 @@ bool cage_proof_make_room(struct cage_proof *proof);
 
 /* The block to try next, after CAGE_ERROR_MEMORY. */
 uint64_t cage_proof_needed(const struct cage_proof *proof);
+
+/* Which ball of the object stands for which where cell b, turned if need be, is a neighbour of a: see cage_glue_matched. */
+const int32_t *cage_proof_match(const struct cage_proof *proof, int32_t side, int32_t a, int32_t b);
 
 /* The slice of a cell, built again if it was dropped. */
 int32_t cage_proof_slice(struct cage_proof *proof, int32_t side, int32_t cell, const struct cage_slice **slice);

@@ -59,23 +59,24 @@ static void ascend(struct descent *at)
 /* The next leaf whose closed cell holds q, or -1. */
 static int32_t next_leaf(const cage_atlas *atlas, struct descent *at, const int32_t q[4])
 {
-    const struct cage_fibre *fibre = cage_read_fibre(atlas);
+    const bool flat = atlas->dim == 2;
+    const int32_t roots = flat ? CAGE_ROOTS_2D : CAGE_ROOTS_3D, children = flat ? CAGE_CHILDREN_2D : CAGE_CHILDREN_3D;
     uint32_t first = cage_read_word(atlas, CAGE_ATLAS_CELL);
     while (at->depth >= 0) {
         int32_t depth = at->depth, index = at->index[depth]++;
-        if (index == (depth == 0 ? fibre->roots : fibre->children)) {
+        if (index == (depth == 0 ? roots : children)) {
             ascend(at);
             continue;
         }
         struct cage_cell cell = {0, index, {0, 0, 0}};
         if (depth > 0)
-            fibre->child(&at->cell, index, &cell);
-        if (!fibre->contains(&cell, q))
+            cage_cell_child(&at->cell, index, &cell);
+        if (flat ? !cage_so2_contains(&cell, q) : !cage_so3_contains(&cell, q))
             continue;
         uint32_t entry = cage_read_word(atlas, at->entry[depth] + (uint32_t)index);
         if (entry & 1)
             return (int32_t)(entry >> 1);
-        if (depth < fibre->max_level)
+        if (depth < (flat ? CAGE_LEVEL_MAX_2D : CAGE_LEVEL_MAX_3D))
             descend(at, &cell, first + (entry >> 1));
     }
     return -1;
@@ -142,9 +143,31 @@ static bool ball_collides(const cage_atlas *atlas, const cage_pose *pose, const 
     return false;
 }
 
-/* Do any inner balls overlap at the pose (user's frame)? */
-static bool collides(const cage_atlas *atlas, const cage_pose *pose)
+/* Are all obstacles farther from the pivot, which is less than 1 from `at`, than any of the object's balls reaches? */
+static bool is_far(const cage_atlas *atlas, const int32_t at[3])
 {
+    uint32_t size = (uint32_t)atlas->dim + 1, obstacles = cage_read_word(atlas, CAGE_ATLAS_OBSTACLE + 1);
+    int64_t extent = (int64_t)cage_read_length(atlas, CAGE_ATLAS_EXTENT) + 1;
+    int64_t far = extent + cage_read_length(atlas, CAGE_ATLAS_LARGEST);
+    uint32_t from = first_from(atlas, at[0] - far), place = cage_read_word(atlas, CAGE_ATLAS_OBSTACLE) + size * from;
+    for (uint32_t j = from; j < obstacles && cage_read_number(atlas, place) <= at[0] + far; j++, place += size) {
+        int64_t aside = cage_read_number(atlas, place + 1) - (int64_t)at[1];
+        if (aside > far || -aside > far)
+            continue;
+        const cage_ball x = cage_read_ball(atlas, place);
+        const int64_t apart[3] = {(int64_t)at[0] - x.x, (int64_t)at[1] - x.y, (int64_t)at[2] - x.z}; /* < 2^30 */
+        int64_t square = apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2], reach = extent + x.r;
+        if (square < reach * reach)
+            return false;
+    }
+    return true;
+}
+
+/* Do any inner balls overlap at the pose (user's frame)? at: the place of the pivot. */
+static bool collides(const cage_atlas *atlas, const cage_pose *pose, const int32_t at[3])
+{
+    if (is_far(atlas, at))
+        return false;
     uint32_t object = cage_read_word(atlas, CAGE_ATLAS_OBJECT), objects = cage_read_word(atlas, CAGE_ATLAS_OBJECT + 1);
     struct cage_rotation rotation;
     cage_rotation_of(pose->q, &rotation);
@@ -153,8 +176,8 @@ static bool collides(const cage_atlas *atlas, const cage_pose *pose)
         const int32_t from[3] = {y.x, y.y, y.z};
         int32_t to[3];
         cage_rotate(&rotation, from, to);
-        const int64_t at[3] = {(int64_t)to[0] + pose->x[0], (int64_t)to[1] + pose->x[1], (int64_t)to[2] + pose->x[2]};
-        if (ball_collides(atlas, pose, &y, at))
+        const int64_t place[3] = {(int64_t)to[0] + pose->x[0], (int64_t)to[1] + pose->x[1], (int64_t)to[2] + pose->x[2]};
+        if (ball_collides(atlas, pose, &y, place))
             return true;
     }
     return false;
@@ -195,7 +218,7 @@ static bool place(const cage_atlas *atlas, const cage_pose *pose, const int32_t 
     }
     if (atlas->side & CAGE_SIDE_OUTER)
         class[1] = class_at(atlas, pose->q, at, 1);
-    return class[1] == CAGE_NO_CLASS && collides(atlas, pose);
+    return class[1] == CAGE_NO_CLASS && collides(atlas, pose, at);
 }
 
 int32_t cage_atlas_ask(const cage_atlas *atlas, const cage_pose *start, const cage_pose *goal)

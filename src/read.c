@@ -19,9 +19,10 @@ cage_ball cage_read_ball(const cage_atlas *atlas, uint32_t at)
 
 bool cage_read_cell(const cage_atlas *atlas, uint32_t leaf, struct cage_cell *cell)
 {
-    const struct cage_fibre *fibre = cage_read_fibre(atlas);
+    const int32_t finest = atlas->dim == 2 ? CAGE_LEVEL_MAX_2D : CAGE_LEVEL_MAX_3D;
+    const uint32_t roots = atlas->dim == 2 ? CAGE_ROOTS_2D : CAGE_ROOTS_3D;
     uint32_t at = cage_read_word(atlas, CAGE_ATLAS_LEAF) + 4 * leaf, head = cage_read_word(atlas, at);
-    bool sound = (head & 15) <= (uint32_t)fibre->max_level && head >> 4 < (uint32_t)fibre->roots;
+    bool sound = (int32_t)(head & 15) <= finest && head >> 4 < roots;
     cell->level = (int32_t)(head & 15);
     cell->face = (int32_t)(head >> 4);
     for (uint32_t k = 0; k < 3; k++) {
@@ -43,7 +44,8 @@ static bool cells_are_sound(const cage_atlas *atlas)
 {
     uint32_t first = cage_read_word(atlas, CAGE_ATLAS_CELL), cells = cage_read_word(atlas, CAGE_ATLAS_CELL + 1);
     uint32_t leaves = cage_read_word(atlas, CAGE_ATLAS_LEAVES);
-    uint32_t roots = atlas->dim == 2 ? 2 : 4, children = atlas->dim == 2 ? 2 : 8;
+    uint32_t roots = atlas->dim == 2 ? CAGE_ROOTS_2D : CAGE_ROOTS_3D;
+    uint32_t children = atlas->dim == 2 ? CAGE_CHILDREN_2D : CAGE_CHILDREN_3D;
     uint32_t leaf = cage_read_word(atlas, CAGE_ATLAS_LEAF);
     if (!fits(atlas, first, cells, 1) || cells < roots || leaves > cells || !fits(atlas, leaf, leaves, 4))
         return false;

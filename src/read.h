@@ -35,7 +35,7 @@ bool cage_read_cell(const cage_atlas *atlas, uint32_t leaf, struct cage_cell *ce
 /* Does a closed ball of the list at that word of the chart (see chart.h) hold the grid point? The component if none does. */
 int32_t cage_read_list(const cage_atlas *atlas, uint32_t chart, uint32_t list, const int32_t p[3]);
 
-/* The cells of its dimension. */
+/* The cells of its dimension; questions go without, so that an image which only asks does not carry it. */
 static CAGE_INLINE const struct cage_fibre *cage_read_fibre(const cage_atlas *atlas)
 {
     return atlas->dim == 2 ? &cage_so2 : &cage_so3;

@@ -109,6 +109,12 @@ int32_t cage_proof_slices(struct cage_proof *proof, int32_t side, int32_t a, int
     return CAGE_ERROR_MEMORY;
 }
 
+const int32_t *cage_proof_match(const struct cage_proof *proof, int32_t side, int32_t a, int32_t b)
+{
+    int32_t turn = cage_graph_turn(&proof->graph, a, 0, b);
+    return turn > 0 ? proof->side[side].image[turn] : NULL;
+}
+
 /* Glue the node's component, and those it is connected with, with cell b. */
 static int32_t glue_node(struct cage_proof *proof, int32_t side, const struct cage_node *node, int32_t b)
 {
@@ -123,7 +129,8 @@ static int32_t glue_node(struct cage_proof *proof, int32_t side, const struct ca
     struct cage_touch *touch = unit ? unit->touch : NULL;
     int32_t count = unit ? unit->count : 0, mixed = unit ? unit->mixed : 0;
     if (!unit)
-        error = cage_glue(&proof->scratch, c, d, node->component, &touch, &count, &mixed);
+        error = cage_glue_matched(&proof->scratch, c, d, cage_proof_match(proof, side, a, b), node->component, &touch, &count,
+                                  &mixed);
     if (error == CAGE_OK && side == CAGE_OUTER && mixed)
         count = keep_exact(c, d, touch, count);
     if (error == CAGE_OK)

@@ -6,7 +6,7 @@
 #include "fibre.h"
 #include "grid.h"
 
-enum { SO2_LEVEL_MAX = 14, CIRCLE = 2 << SO2_LEVEL_MAX };
+enum { SO2_LEVEL_MAX = CAGE_LEVEL_MAX_2D, CIRCLE = 2 << SO2_LEVEL_MAX };
 
 /* The rotation at t = m / 2^level on a face, |m| <= 2^level: entries <= 3 4^14 < 2^30. */
 static void so2_quaternion_at(int32_t face, int32_t level, int32_t m, int32_t q[4])
@@ -34,13 +34,6 @@ static int32_t arc(const struct cage_cell *cell, int32_t *length)
 /* Modulo the circle, a power of two. */
 static int32_t around(int32_t turn) { return turn & (CIRCLE - 1); }
 
-static void so2_child(const struct cage_cell *cell, int32_t index, struct cage_cell *out)
-{
-    *out = *cell;
-    out->level++;
-    out->at[0] = 2 * cell->at[0] + index;
-}
-
 static bool so2_touch(const struct cage_cell *a, const struct cage_cell *b)
 {
     int32_t a_length, b_length, a_first = arc(a, &a_length), b_first = arc(b, &b_length);
@@ -54,7 +47,7 @@ static int32_t turn_sign(const int32_t a[4], const int32_t b[4])
     return (cross > 0) - (cross < 0);
 }
 
-static bool so2_contains(const struct cage_cell *cell, const int32_t q[4])
+bool cage_so2_contains(const struct cage_cell *cell, const int32_t q[4])
 {
     int32_t first[4], last[4];
     so2_cell_rotation(cell, 0, first);
@@ -92,5 +85,4 @@ static void so2_common(const struct cage_cell *a, const struct cage_cell *b, int
     so2_cell_rotation(a, around(b_first - first) == length ? 2 : 0, q);
 }
 
-const struct cage_fibre cage_so2 = {2, 2, SO2_LEVEL_MAX,
-                                    so2_child, so2_touch, so2_contains, so2_representative, so2_turn, so2_corners, so2_common};
+const struct cage_fibre cage_so2 = {CAGE_ROOTS_2D, CAGE_CHILDREN_2D, SO2_LEVEL_MAX, so2_touch, cage_so2_contains, so2_representative, so2_turn, so2_corners, so2_common};

@@ -9,7 +9,7 @@
 #include "grid.h"
 
 /* The width of a face in cells of the finest level. */
-enum { SO3_LEVEL_MAX = 11, SO3_WIDTH = 1 << SO3_LEVEL_MAX };
+enum { SO3_LEVEL_MAX = CAGE_LEVEL_MAX_3D, SO3_WIDTH = 1 << SO3_LEVEL_MAX };
 
 /* Entry of the quaternion that axis k of the face is. */
 static int32_t entry_of_face(int32_t face, int32_t k) { return k < face ? k : k + 1; }
@@ -20,14 +20,6 @@ static void so3_quaternion_at(int32_t face, int32_t one, const int32_t m[3], int
     q[face] = 3 * one * one;
     for (int32_t k = 0; k < 3; k++)
         q[entry_of_face(face, k)] = m[k] * ((m[k] < 0 ? -m[k] : m[k]) + 2 * one);
-}
-
-static void so3_child(const struct cage_cell *cell, int32_t index, struct cage_cell *out)
-{
-    out->level = cell->level + 1;
-    out->face = cell->face;
-    for (int32_t k = 0; k < 3; k++)
-        out->at[k] = 2 * cell->at[k] + (index >> k & 1);
 }
 
 struct range {
@@ -84,7 +76,7 @@ static bool below(int32_t m, int32_t one, int64_t on_face, int64_t other)
     return (int64_t)m * ((m < 0 ? -m : m) + 2 * one) * on_face <= other * 3 * one * one;
 }
 
-static bool so3_contains(const struct cage_cell *cell, const int32_t q[4])
+bool cage_so3_contains(const struct cage_cell *cell, const int32_t q[4])
 {
     int64_t sign = q[cell->face] < 0 ? -1 : 1, on_face = sign * q[cell->face];
     int32_t one = (int32_t)1 << cell->level;
@@ -145,5 +137,25 @@ static void so3_common(const struct cage_cell *a, const struct cage_cell *b, int
     so3_quaternion_at(a->face, SO3_WIDTH, m, q);
 }
 
-const struct cage_fibre cage_so3 = {4, 8, SO3_LEVEL_MAX,
-                                    so3_child, so3_touch, so3_contains, so3_representative, so3_turn, so3_corners, so3_common};
+/* Entry e of q times the half turn t is entry e ^ t of q, with this sign. */
+static const int8_t TURN_SIGN[CAGE_TURNS][4] = {{1, 1, 1, 1}, {-1, 1, 1, -1}, {-1, -1, 1, 1}, {-1, 1, -1, 1}};
+
+void cage_so3_turned(const int32_t q[4], int32_t turn, int32_t out[4])
+{
+    for (int32_t e = 0; e < 4; e++)
+        out[e] = TURN_SIGN[turn][e] * q[e ^ turn];
+}
+
+void cage_so3_turned_cell(const struct cage_cell *cell, int32_t turn, struct cage_cell *out)
+{
+    const int8_t *sign = TURN_SIGN[turn];
+    out->level = cell->level;
+    out->face = cell->face ^ turn;
+    for (int32_t k = 0; k < 3; k++) {
+        int32_t entry = entry_of_face(out->face, k), from = entry ^ turn;
+        int32_t at = cell->at[from < cell->face ? from : from - 1];
+        out->at[k] = sign[entry] == sign[out->face] ? at : ((int32_t)1 << cell->level) - 1 - at;
+    }
+}
+
+const struct cage_fibre cage_so3 = {CAGE_ROOTS_3D, CAGE_CHILDREN_3D, SO3_LEVEL_MAX, so3_touch, cage_so3_contains, so3_representative, so3_turn, so3_corners, so3_common};

@@ -204,7 +204,7 @@ static void choose_cell(struct maker *m, const struct cage_fibre *fibre, int64_t
     while (out->level < level) {
         struct cage_cell child;
         do
-            fibre->child(out, (int32_t)draw(m, 0, fibre->children - 1), &child);
+            cage_cell_child(out, (int32_t)draw(m, 0, fibre->children - 1), &child);
         while (beside && !fibre->touch(&child, beside));
         *out = child;
     }

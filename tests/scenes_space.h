@@ -45,6 +45,14 @@ void space_shuffle(const space_scene *in, uint64_t seed, space_scene *out);
 /* The same question from the other end; needs a goal. */
 void space_swap(const space_scene *in, space_scene *out);
 
+/* As many of the object's balls as there is room for together with their images under half turns about the axes: about that
+ * one (1 to 3), or all three (4); twice if they are their own. No goal, no chain. */
+void space_double(const space_scene *in, int turns, space_scene *out);
+
+/* The same union of balls, but one more of them hidden in the object's first, so that no half turn takes the balls to themselves;
+ * false if there is no room for it. */
+int space_spoil(const space_scene *in, space_scene *out);
+
 /* Poses and balls as text, to file in a report. */
 void space_print(FILE *file, const space_scene *s);
 #endif

@@ -164,3 +164,38 @@ void space_print(FILE *file, const space_scene *s)
     print_balls(file, "object", s->object, s->object_count);
     print_balls(file, "obstacles", s->obstacles, s->obstacle_count);
 }
+
+static void add_ball(space_scene *s, int32_t x, int32_t y, int32_t z, int32_t r)
+{
+    const cage_ball ball = {x, y, z, r};
+    s->object[s->object_count++] = ball;
+}
+
+void space_double(const space_scene *in, int turns, space_scene *out)
+{
+    int32_t images = turns == 4 ? 4 : 2, most = SPACE_OBJECT / images;
+    *out = *in;
+    out->has_goal = 0;
+    out->object_ring = out->obstacle_ring = 0;
+    out->object_count = 0;
+    for (int32_t i = 0; i < in->object_count && i < most; i++) {
+        const cage_ball b = in->object[i];
+        add_ball(out, b.x, b.y, b.z, b.r);
+        if (turns == 1 || turns == 4)
+            add_ball(out, b.x, -b.y, -b.z, b.r);
+        if (turns == 2 || turns == 4)
+            add_ball(out, -b.x, b.y, -b.z, b.r);
+        if (turns == 3 || turns == 4)
+            add_ball(out, -b.x, -b.y, b.z, b.r);
+    }
+}
+
+int space_spoil(const space_scene *in, space_scene *out)
+{
+    *out = *in;
+    if (in->object_count == SPACE_OBJECT || in->object[0].r < 16)
+        return 0;
+    const cage_ball b = in->object[0];
+    add_ball(out, b.x + 1, b.y + 2, b.z + 3, b.r / 2); /* 4 + r / 2 < r */
+    return 1;
+}

@@ -268,7 +268,7 @@ static struct cage_cell *leaf_cells(const struct made *m)
     for (uint32_t i = 0; i < count; i++) {
         uint32_t entry = word(m, first + i);
         for (int32_t k = 0; k < fibre->children && !(entry & 1); k++)
-            fibre->child(&cell[i], k, &cell[(entry >> 1) + (uint32_t)k]);
+            cage_cell_child(&cell[i], k, &cell[(entry >> 1) + (uint32_t)k]);
         if (entry & 1)
             leaf[entry >> 1] = cell[i];
         leaves += entry & 1;
@@ -455,7 +455,7 @@ static void draw_rotation(struct asked *a, int32_t q[4])
     if (kind == 1 || kind == 2) {
         for (int32_t i = kind == 1 ? 0 : draw(a, 0, 6); i > 0; i--) {
             struct cage_cell child;
-            fibre->child(&cell, draw(a, 0, fibre->children - 1), &child);
+            cage_cell_child(&cell, draw(a, 0, fibre->children - 1), &child);
             cell = child;
         }
         if (dim == 3) {

@@ -26,7 +26,7 @@ static void check_view(struct cage_arena *arena, uint64_t seed, const struct glu
     int32_t k_count = c->slice.regions, l_count = d->slice.regions, hint[2] = {0, 0};
     uint64_t state = seed;
     size_t mark = arena->used;
-    test_require(cage_view_make(arena, &c->slice, &d->slice, &view) == CAGE_OK);
+    test_require(cage_view_make(arena, &c->slice, &d->slice, NULL, &view) == CAGE_OK);
     int8_t *verdicts = test_alloc((size_t)k_count * (size_t)l_count);
     for (int32_t n = 0; n < k_count * l_count + 50; n++) {
         int32_t at = n < k_count * l_count ? n : (int32_t)test_between(&state, 0, k_count * l_count - 1), k = at / l_count,

@@ -377,7 +377,7 @@ static void choose_cell(uint64_t *state, int32_t dim, int32_t level, struct cage
     struct cage_cell cell = {0, (int32_t)test_between(state, 0, fibre->roots - 1), {0, 0, 0}};
     while (cell.level < level) {
         struct cage_cell child;
-        fibre->child(&cell, (int32_t)test_between(state, 0, fibre->children - 1), &child);
+        cage_cell_child(&cell, (int32_t)test_between(state, 0, fibre->children - 1), &child);
         cell = child;
     }
     fibre->representative(&cell, out->q);
@@ -473,7 +473,7 @@ static void slice_of(struct cage_arena *arena, int32_t dim, const cage_ball *bal
     static const struct cage_rotations rotations = {{1, 0, 0, 0}, 0};
     static const int32_t reach = 0;
     const cage_ball point = {0, 0, 0, -cage_radius_change(0, -1)};
-    const struct cage_side side = {&point, &reach, ball, 1, count, dim, -1};
+    const struct cage_side side = {&point, &reach, ball, 1, count, dim, -1, {NULL, NULL, NULL, NULL}};
     ck_assert_int_eq(cage_slice_make(arena, &side, &rotations, out), CAGE_OK);
     ck_assert_int_eq(out->balls, count);
 }

@@ -25,9 +25,9 @@ static int32_t refine(uint64_t *state, int32_t cells, struct cage_cell *cell)
         struct cage_cell parent = cell[i];
         if (parent.level == fibre->max_level)
             continue;
-        fibre->child(&parent, 0, &cell[i]);
+        cage_cell_child(&parent, 0, &cell[i]);
         for (int32_t k = 1; k < fibre->children; k++)
-            fibre->child(&parent, k, &cell[count++]);
+            cage_cell_child(&parent, k, &cell[count++]);
     }
     return count;
 }
@@ -114,8 +114,8 @@ START_TEST(children_share_out_their_parent)
         struct cage_cell cell = any_cell(&state), child[2];
         if (cell.level == fibre->max_level)
             continue;
-        fibre->child(&cell, 0, &child[0]);
-        fibre->child(&cell, 1, &child[1]);
+        cage_cell_child(&cell, 0, &child[0]);
+        cage_cell_child(&cell, 1, &child[1]);
         test_require(arc_same(arc_end(&cell, 0), arc_end(&child[0], 0)));
         test_require(arc_same(arc_end(&child[0], 1), arc_end(&child[1], 0)));
         test_require(arc_same(arc_end(&child[1], 1), arc_end(&cell, 1)));

@@ -78,7 +78,7 @@ static struct cage_cell cell_at(int32_t level, int32_t index, int32_t deeper, in
     index = (index % around + around) % around;
     struct cage_cell cell = {level, index >> level, {index & ((1 << level) - 1), 0, 0}};
     for (; deeper > 0; deeper--)
-        cage_so2.child(&cell, which, &cell);
+        cage_cell_child(&cell, which, &cell);
     return cell;
 }
 

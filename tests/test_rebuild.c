@@ -13,7 +13,7 @@
 #include "scenes_space.h"
 #include "whole.h"
 
-enum { PLENTY = 64 << 20, LEAVES = 576, NODES = 1 << 14 };
+enum { PLENTY = 64 << 20, LEAVES = 2304, NODES = 1 << 14 };
 
 /* The plane or space, its cells of rotations compared once more. */
 struct place {
@@ -23,10 +23,12 @@ struct place {
     void (*check_cover)(void);
 };
 
-/* The inner graph of all leaves: nodes of leaf i are first[i] to first[i + 1] - 1. */
+/* The inner graph of all leaves, and of their images under half turns that take the object to itself (these have the same balls, see
+ * test_turns, and share a slice): nodes of leaf i are first[i] to first[i + 1] - 1. */
 struct again {
     int32_t leaves, nodes;
-    const struct cage_leaf *leaf[LEAVES];
+    struct cage_cell cell[LEAVES];
+    const struct cage_leaf *leaf[LEAVES]; /* whose image it is */
     int32_t first[LEAVES + 1];
     struct cage_slice slice[LEAVES];
     int32_t group[NODES]; /* union-find */
@@ -34,7 +36,7 @@ struct again {
 
 /* entered: leaves whose slice the search has built; uneven: pairs of neighbours of unequal level; outside: nodes reached. */
 struct tally {
-    long proofs, leaves, entered, pairs, uneven, nodes, reached, outside, edges;
+    long proofs, turned, leaves, entered, pairs, uneven, nodes, reached, outside, edges;
 };
 
 static unsigned char *memory, *work;
@@ -54,7 +56,7 @@ static void check_circle(void)
     for (int32_t i = 0; i < graph.leaves; i++) {
         int32_t next = 0;
         for (int32_t j = 0; j < graph.leaves; j++)
-            next += arc_same(arc_end(&graph.leaf[i]->cell, 1), arc_end(&graph.leaf[j]->cell, 0));
+            next += arc_same(arc_end(&graph.cell[i], 1), arc_end(&graph.cell[j], 0));
         test_require(next == 1);
     }
 }
@@ -76,10 +78,10 @@ static void check_cube(void)
 {
     int64_t volume = 0, area;
     for (int32_t i = 0; i < graph.leaves; i++) {
-        int64_t size = CUBE_WIDTH >> graph.leaf[i]->cell.level;
+        int64_t size = CUBE_WIDTH >> graph.cell[i].level;
         volume += size * size * size;
         for (int32_t j = 0; j < i; j++)
-            test_require(cube_shared(&graph.leaf[i]->cell, &graph.leaf[j]->cell, &area) < 3);
+            test_require(cube_shared(&graph.cell[i], &graph.cell[j], &area) < 3);
     }
     test_require(volume == (int64_t)4 * CUBE_WIDTH * CUBE_WIDTH * CUBE_WIDTH);
 }
@@ -93,8 +95,11 @@ static void find_leaves(const struct cage_proof *proof)
 {
     graph.leaves = 0;
     for (int32_t i = CAGE_CELL_ROOT; i < proof->graph.cells; i++)
-        if (proof->graph.cell[i].child == 0) {
+        for (int32_t t = 0; t < proof->graph.turns && proof->graph.cell[i].child == 0; t++) {
             test_require(graph.leaves < LEAVES);
+            graph.cell[graph.leaves] = proof->graph.cell[i].cell;
+            if (proof->scene.dim == 3) /* test_turns */
+                cage_so3_turned_cell(&proof->graph.cell[i].cell, proof->graph.turn[t], &graph.cell[graph.leaves]);
             graph.leaf[graph.leaves++] = &proof->graph.cell[i];
         }
 }
@@ -138,7 +143,10 @@ static void make_slices(struct cage_arena *arena, const struct place *place, con
 {
     graph.nodes = 0;
     for (int32_t i = 0; i < graph.leaves; i++) {
-        make_slice(arena, place->fibre, &proof->side[CAGE_INNER], &graph.leaf[i]->cell, &graph.slice[i]);
+        if (i > 0 && graph.leaf[i] == graph.leaf[i - 1])
+            graph.slice[i] = graph.slice[i - 1];
+        else
+            make_slice(arena, place->fibre, &proof->side[CAGE_INNER], &graph.cell[i], &graph.slice[i]);
         graph.first[i] = graph.nodes;
         for (int32_t k = 0; k < graph.slice[i].regions; k++) {
             test_require(graph.nodes < NODES);
@@ -153,7 +161,8 @@ static void make_slices(struct cage_arena *arena, const struct place *place, con
 static void free_slices(void)
 {
     for (int32_t i = 0; i < graph.leaves; i++)
-        free(graph.slice[i].t.site);
+        if (i == 0 || graph.leaf[i] != graph.leaf[i - 1])
+            free(graph.slice[i].t.site);
 }
 
 /* ---- start and goal ---------------------------------------------------------------------------------- */
@@ -196,7 +205,7 @@ static int32_t node_at(const struct place *place, const struct cage_proof *proof
     mpq_inits(x[0], x[1], x[2], NULL);
     exact_place(pose, proof->result.pivot, x);
     for (int32_t i = 0; i < graph.leaves; i++) {
-        if (!place->holds(&graph.leaf[i]->cell, pose->q))
+        if (!place->holds(&graph.cell[i], pose->q))
             continue;
         int32_t label = whole_label_exact(&graph.slice[i].t, graph.slice[i].label, x);
         ck_assert_msg(label >= 0, "a free pose lies in an inner ball");
@@ -251,12 +260,21 @@ static int32_t check_edges(const struct cage_proof *proof, int32_t i, int32_t j,
     return wanted;
 }
 
-/* The search reached what is joined with this node, and nothing else. */
+/* Is the component over the leaf, or over some image of it, joined with this node? */
+static bool joins(int32_t leaf, int32_t component, int32_t from)
+{
+    bool joined = false;
+    for (int32_t i = 0; i < graph.leaves; i++)
+        joined = joined || (graph.leaf[i] == graph.leaf[leaf] && root_of(graph.first[i] + component) == from);
+    return joined;
+}
+
+/* The search reached what is joined with this node, up to half turns, and nothing else. */
 static void check_reached(const struct cage_proof *proof, int32_t from, struct tally *t)
 {
     for (int32_t i = 0; i < graph.leaves; i++)
         for (int32_t k = 0; k < graph.slice[i].regions; k++) {
-            bool mine = root_of(graph.first[i] + k) == from, theirs = is_reached(proof, node_of(i, k));
+            bool mine = joins(i, k, from), theirs = is_reached(proof, node_of(i, k));
             ck_assert_msg(mine == theirs, "leaf %d component %d: %s", (int)i, (int)k,
                           mine ? "not reached" : "reached for no reason");
             ck_assert_msg(!mine || proof->graph.goal || k != CAGE_OUTSIDE, "the outside is reached");
@@ -275,14 +293,19 @@ static void glue_all(struct cage_arena *arena, const struct place *place, const 
             struct cage_touch *touch;
             int32_t count, mixed;
             size_t mark = arena->used;
-            if (!place->neighbours(&graph.leaf[i]->cell, &graph.leaf[j]->cell))
+            if (!place->neighbours(&graph.cell[i], &graph.cell[j]))
                 continue;
+            if (graph.leaf[i] == graph.leaf[j]) { /* a cell and its image */
+                for (int32_t k = 0; k < graph.slice[i].regions; k++)
+                    join(graph.first[i] + k, graph.first[j] + k);
+                continue;
+            }
             ck_assert_int_eq(cage_glue(arena, &graph.slice[i], &graph.slice[j], CAGE_ALL, &touch, &count, &mixed), CAGE_OK);
             for (int32_t e = 0; e < count; e++)
                 join(graph.first[i] + touch[e].k, graph.first[j] + touch[e].l);
             t->edges += check_edges(proof, i, j, touch, count);
             t->pairs++;
-            t->uneven += graph.leaf[i]->cell.level != graph.leaf[j]->cell.level;
+            t->uneven += graph.cell[i].level != graph.cell[j].level;
             cage_arena_release(arena, mark);
         }
 }
@@ -308,6 +331,7 @@ static void prove_twice(const struct place *place, const question *q, struct tal
         ck_assert_msg(node_at(place, proof, &proof->pose[1 - proof->origin]) != from, "the goal is reached");
     check_reached(proof, from, t);
     t->proofs++;
+    t->turned += proof->graph.turns > 1;
     t->leaves += graph.leaves;
     t->nodes += graph.nodes;
     for (int32_t i = 0; i < graph.leaves; i++)
@@ -350,16 +374,32 @@ static void ask_in_space(int32_t round, struct tally *t)
     prove_twice(&space, &q, t);
 }
 
+/* Objects with their images under half turns. */
+static void ask_in_turn(int32_t round, struct tally *t)
+{
+    space_scene drawn, s;
+    cage_limits limits;
+    space_random((uint64_t)round + 600000, &drawn);
+    space_double(&drawn, round % 4 + 1, &s);
+    cage_scene view = space_view(&s);
+    cage_limits_default(&limits, 3);
+    limits.max_cells = 100;
+    limits.start_level = round % 3 - 1;
+    limits.side = t->proofs % 3 == 0 ? CAGE_SIDE_INNER : CAGE_SIDE_BOTH;
+    const question q = {&view, &s.start, NULL, &limits};
+    prove_twice(&space, &q, t);
+}
+
 static struct tally rebuild(void (*ask)(int32_t round, struct tally *t), int32_t wanted, const char *where)
 {
-    struct tally t = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+    struct tally t = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     int32_t round = 0;
     memory = test_alloc(PLENTY);
     work = test_alloc(PLENTY);
     for (; t.proofs < wanted && round < 40 * wanted; round++)
         ask(round, &t);
-    printf("rebuilt: in %s %ld separations in %d scenes; %ld leaves, %ld entered; %ld pairs of neighbours, %ld of unequal level; "
-           "%ld nodes, %ld reached, %ld of them outside; %ld edges\n", where, t.proofs, (int)round, t.leaves, t.entered, t.pairs,
+    printf("rebuilt: in %s %ld separations in %d scenes, %ld of symmetric objects; %ld leaves, %ld entered; %ld pairs of neighbours, %ld of unequal level; "
+           "%ld nodes, %ld reached, %ld of them outside; %ld edges\n", where, t.proofs, (int)round, t.turned, t.leaves, t.entered, t.pairs,
            t.uneven, t.nodes, t.reached, t.outside, t.edges);
     free(memory);
     free(work);
@@ -383,11 +423,21 @@ START_TEST(proofs_in_space_hold_from_nothing)
 }
 END_TEST
 
+START_TEST(proofs_up_to_half_turns_hold_from_nothing)
+{
+    int32_t wanted = test_rounds(20);
+    struct tally t = rebuild(ask_in_turn, wanted, "space, of symmetric objects,");
+    ck_assert_int_ge((int)t.turned, wanted);
+    ck_assert_msg(wanted < 20 || t.uneven > 100, "%ld pairs of unequal level", t.uneven);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("rebuild");
     TCase *tests = test_case(suite, "rebuild");
     tcase_add_test(tests, proofs_in_the_plane_hold_from_nothing);
     tcase_add_test(tests, proofs_in_space_hold_from_nothing);
+    tcase_add_test(tests, proofs_up_to_half_turns_hold_from_nothing);
     return test_main(suite);
 }

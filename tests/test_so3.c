@@ -79,9 +79,9 @@ static int32_t refine(uint64_t *state, int32_t cells, struct cage_cell *cell)
         struct cage_cell parent = cell[i];
         if (parent.level == fibre->max_level || (way == 2 && !cube_holds(&parent, &focus) && random_next(state) % 64))
             continue;
-        fibre->child(&parent, 0, &cell[i]);
+        cage_cell_child(&parent, 0, &cell[i]);
         for (int32_t k = 1; k < fibre->children; k++)
-            fibre->child(&parent, k, &cell[count++]);
+            cage_cell_child(&parent, k, &cell[count++]);
     }
     return count;
 }
@@ -181,7 +181,7 @@ START_TEST(children_share_out_their_parent)
         int64_t volume = 0, area;
         struct cube_box box = cube_of(&cell);
         for (int32_t k = 0; k < 8; k++) {
-            fibre->child(&cell, k, &child[k]);
+            cage_cell_child(&cell, k, &child[k]);
             test_require(child[k].level == cell.level + 1 && child[k].face == cell.face);
             struct cube_box part = cube_of(&child[k]);
             int64_t size = 1;

@@ -27,6 +27,7 @@ static void begin(struct uniform *u, unsigned char *block, double fill)
     cage_arena_init(&u->scratch, block + facts + held, BENCH_ROOM - facts - held);
     bench_space_make(&u->facts, OBSTACLES, OBJECTS, fill, &u->space);
     u->graph.fibre = &cage_so3;
+    u->graph.turns = 1;
     u->graph.arena = &u->facts;
     u->graph.capacity = CAGE_CELL_ROOT + 4 * (1 + 8 + 64 + 512);
     u->graph.cells = CAGE_CELL_ROOT;
