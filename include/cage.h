@@ -215,8 +215,9 @@ int32_t cage_margin_find(const cage_scene *scene, const cage_pose *start, const 
 /* ---- paths --------------------------------------------------------------------------------------- */
 
 /* A path is a sequence of poses of the pivot: the object's ball (y, r) sits at x + R(q)(y - pivot).
- * From each pose to the next either x is the same and the object turns about the pivot along the shorter arc, or q
- * is the same (up to scale) and it moves on a straight line. The first pose is the start, its pivot moved
+ * From each pose to the next the pivot moves on a straight line while the object turns about it along the shorter arc, both
+ * at a constant rate. On a path that cage_prove found, x or q (up to scale) stays: it moves or turns, not both.
+ * The first pose is the start, its pivot moved
  * to a grid point less than 1 unit away; with a goal the last pose is the goal, likewise. Without one, at the last pose
  * the whole object is beyond an axis-parallel line (plane) that has all obstacles on its other side.
  *
