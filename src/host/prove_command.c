@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "picture.h"
+#include "smooth.h"
 #include "threads.h"
 
 #define STEPS_A_TURN 32         /* between two looks at the clock */
@@ -15,8 +16,8 @@
 
 typedef struct options {
     const char *object, *obstacles, *start, *goal, *svg, *ply;
-    const char *side, *max_level, *max_cells, *memory, *unit, *threads, *margin;
-    int json, quiet;
+    const char *side, *max_level, *max_cells, *memory, *unit, *threads, *margin, *path;
+    int json, quiet, smooth;
 } options;
 
 void host_prove_help(FILE *out)
@@ -61,6 +62,9 @@ void host_prove_help(FILE *out)
         "                  are the same. More than one take memory of their own as well, 4M to 256M each\n"
         "  --margin N      find out as well by how much every radius may shrink before the answer changes (negative:\n"
         "                  must grow), by N more proofs, each twice as close\n"
+        "  --smooth        make the path short and smooth: it then moves and turns at once, and goes through its poses on\n"
+        "                  a curve without corners that is certified as a whole (needs CHOLMOD: cage --help says whether it is there)\n"
+        "  --path FILE     write the path as CSV: the time from 0 to 1, the object's pose like POSE, where its pivot is\n"
         "  --unit U        length of a grid unit (default: the finest power of two at which the scene\n"
         "                  fits). Balls between grid points are rounded to the safe side\n"
         "  --json          print one JSON object instead of text\n"
@@ -102,7 +106,8 @@ static int read_options(int argc, char **argv, options *given, host_error *error
         { "--max-level", &given->max_level, NULL }, { "--max-cells", &given->max_cells, NULL },
         { "--memory", &given->memory, NULL },       { "--unit", &given->unit, NULL },
         { "--ply", &given->ply, NULL },             { "--threads", &given->threads, NULL },
-        { "--margin", &given->margin, NULL },
+        { "--margin", &given->margin, NULL },       { "--path", &given->path, NULL },
+        { "--smooth", NULL, &given->smooth },
         { "--json", NULL, &given->json },           { "--quiet", NULL, &given->quiet },
     };
     int code;
@@ -263,11 +268,46 @@ static int find_margin(const host_answer *answer, int32_t rounds, cage_margin *m
                                                   "--margin: %.200s", cage_error_text(state));
 }
 
-static int show_answer(const options *given, host_answer *answer, host_error *error)
+/* A path that is found is made smooth, and stands for the one that was. */
+static int smooth_path(host_answer *answer, cage_result *result, host_way *way, host_error *error)
+{
+    int code;
+
+    if (answer->result->path_count == 0)
+        return HOST_OK;
+    code = host_smooth(answer, answer->result->path, answer->result->path_count, 1, way, error);
+    if (code != HOST_OK)
+        return code;
+    *result = *answer->result;
+    result->path = way->pose;
+    result->path_count = way->count;
+    answer->result = result;
+    answer->way = way;
+    return check_path(answer, error);
+}
+
+/* A path as it was found, or smoothed, to a file; without one the file is empty but for its header. */
+static int write_path(const char *file, const host_answer *answer, host_error *error)
+{
+    host_way way;
+
+    memset(&way, 0, sizeof way);
+    way.count = answer->result->path_count;
+    way.pose = (cage_pose *)answer->result->path;
+    return host_write_way(file, answer, answer->way != NULL ? answer->way : &way, error);
+}
+
+static int show_answer(const options *given, host_answer *answer, host_way *way, host_error *error)
 {
     cage_margin margin;
+    cage_result smoothed;
     int32_t rounds;
     int code = check_path(answer, error);
+
+    if (code == HOST_OK && given->smooth)
+        code = smooth_path(answer, &smoothed, way, error);
+    if (code == HOST_OK && given->path != NULL)
+        code = write_path(given->path, answer, error);
 
     if (code == HOST_OK && given->margin != NULL)
         code = host_blame(error, "--margin", host_parse_integer(given->margin, 0, 64, &rounds, error));
@@ -291,6 +331,7 @@ static int show_answer(const options *given, host_answer *answer, host_error *er
 static int run(const options *given, host_query *query, host_grid *grid, void **block, host_error *error)
 {
     host_answer answer;
+    host_way way;
     cage_limits limits;
     job todo;
     double unit = 0;
@@ -314,6 +355,10 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
     if (code == HOST_OK)
         code = host_check_writable("--ply", given->ply, error);
     if (code == HOST_OK)
+        code = host_check_writable("--path", given->path, error);
+    if (code == HOST_OK && given->smooth && !smooth_metric_available())
+        code = host_fail(error, HOST_BAD_INPUT, "--smooth: this build is without CHOLMOD (see the README)");
+    if (code == HOST_OK)
         code = read_limits(given, query->dim, &limits, error);
     if (code == HOST_OK)
         code = host_to_grid(query, unit, grid, error);
@@ -322,6 +367,7 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
     if (!given->quiet)
         host_warn_empty(given->object, given->obstacles, query);
     memset(&answer, 0, sizeof answer);
+    memset(&way, 0, sizeof way);
     answer.query = query;
     answer.grid = grid;
     answer.limits = &limits;
@@ -330,7 +376,10 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
     todo.progress = progress;
     code = host_in_block(cage_prove_size(&grid->scene, &limits), given->memory != NULL ? &bytes : NULL, attempt, &todo, block,
                          "query", error);
-    return code == HOST_OK ? show_answer(given, &answer, error) : code;
+    if (code == HOST_OK)
+        code = show_answer(given, &answer, &way, error);
+    host_free_way(&way);
+    return code;
 }
 
 int host_prove(int argc, char **argv)

@@ -1,7 +1,7 @@
 /* report.c: an answer as sentences, and as one JSON object. */
 #include <math.h>
 
-#include "host.h"
+#include "smooth.h"
 
 /* ---- text ---------------------------------------------------------------------------------------- */
 
@@ -144,6 +144,19 @@ static void print_margin(FILE *out, const host_answer *answer)
     }
 }
 
+static void print_way(FILE *out, const host_answer *answer)
+{
+    const host_way *way = answer->way;
+    const double unit = answer->grid->unit;
+
+    if (way->smooth)
+        (void)fprintf(out, "        smoothed: length %.6g instead of %.6g, and proved with the curve through the poses, which is off\n"
+                           "        the straight legs between them by %.2g at most\n",
+                      way->length * unit, way->found_length * unit, way->deviation * unit);
+    else
+        (void)fprintf(out, "        not smoothed: no shorter path was certified; length %.6g\n", way->length * unit);
+}
+
 void host_report_text(FILE *out, const host_answer *answer)
 {
     const cage_result *result = answer->result;
@@ -159,6 +172,8 @@ void host_report_text(FILE *out, const host_answer *answer)
         print_pivot(out, answer);
         (void)fprintf(out, "; checked again, apart from the search\n");
     }
+    if (answer->way != NULL)
+        print_way(out, answer);
     if (answer->margin != NULL)
         print_margin(out, answer);
     print_unit(out, answer->grid);
@@ -286,6 +301,9 @@ void host_report_json(FILE *out, const host_answer *answer)
     (void)fprintf(out, ",\n");
     if (answer->margin != NULL)
         json_margin(out, answer);
+    if (answer->way != NULL)
+        (void)fprintf(out, "  \"smooth\": %s,\n  \"length\": %.17g,\n  \"found_length\": %.17g,\n", answer->way->smooth ? "true" : "false",
+                      answer->way->length * answer->grid->unit, answer->way->found_length * answer->grid->unit);
     json_path(out, answer);
     (void)fprintf(out, "}\n");
 }
