@@ -18,7 +18,10 @@
 #define ROUNDS 24        /* with another weight of the obstacles, or another band, each */
 #define STEPS 250        /* of descent in a round */
 #define BAND 0.08        /* of the object's radius: distances below are paid for; it shrinks from round to round */
-#define SHRINK 0.8
+#define SHRINK 0.7
+#define PUSH 1.7
+#define IDLE 4           /* rounds without a gain, after which there is none */
+#define ROUNDING 1e-6    /* a path as short as another but for this part */
 #define WORTHWHILE 1e-4  /* a path shorter by less than this part is not another one */
 
 /* Lengths are in radii of the object. */
@@ -44,6 +47,30 @@ static void free_band(band *b)
     free(b->row);
 }
 
+/* Detours go first: from each station straight to the farthest that one certified leg leads to, halving. -1: no memory. */
+static int take_short_cuts(band *b)
+{
+    cage_pose *path = malloc(2 * (size_t)b->stations * sizeof *path), *kept;
+    int at = 0, count = 1, n;
+
+    if (path == NULL)
+        return -1;
+    kept = path + b->stations;
+    for (n = 0; n < b->stations; n++)
+        way_pose(&b->station[n], b->answer->query->dim, &path[n]);
+    kept[0] = path[0];
+    while (at + 1 < b->stations) {
+        int to = b->stations - 1;
+
+        while (to > at + 1 && !way_leg(b->answer, &path[at], &path[to]))
+            to = at + (to - at) / 2;
+        kept[count++] = path[at = to];
+    }
+    way_resample(kept, count, b->radius, b->station, b->stations);
+    free(path);
+    return 0;
+}
+
 static int make_band(band *b, const host_answer *answer, const cage_pose *path, int32_t count)
 {
     const double radius = way_radius(answer), wanted = way_length(path, count, radius) / radius / SPACING;
@@ -67,7 +94,7 @@ static int make_band(band *b, const host_answer *answer, const cage_pose *path, 
     b->listed = b->trial + n;
     b->step = b->gradient + 6 * n;
     way_resample(path, count, radius, b->station, stations);
-    return 0;
+    return take_short_cuts(b);
 }
 
 /* ---- cost and gradient ------------------------------------------------------------------------------ */
@@ -207,7 +234,10 @@ static double least_gap(const band *b)
     return least;
 }
 
-/* Keep the rows if they are certified, and shorter than what is kept. 1: they are certified; -1: no memory. */
+enum { BROKEN = -1, COLLIDES, TIGHT, CERTIFIED, SHORTER };
+
+/* Keep the rows if they are certified, and shorter than what is kept, or as short as the path that was found. TIGHT: it is clear
+ * at the stations, but not certified in between; BROKEN: no memory. */
 static int keep(band *b, host_way *way)
 {
     double deviation, length;
@@ -215,30 +245,32 @@ static int keep(band *b, host_way *way)
     int certified;
 
     if (least_gap(b) <= 0)
-        return 0;
+        return COLLIDES;
     way_rows(b->station, b->stations, b->first, b->last, b->answer->query->dim, b->row, b->rows);
     length = way_length(b->row, b->rows, b->radius);
     if (way->smooth && length > way->length * (1 - WORTHWHILE))
-        return 1; /* whether it is or not: it gains nothing */
+        return CERTIFIED; /* whether it is or not: it gains nothing */
     certified = way_certify(b->answer, b->row, b->rows, &deviation);
-    if (certified != 1 || (way->count > 0 && length > way->length))
-        return certified;
+    if (certified < 1)
+        return certified < 0 ? BROKEN : TIGHT;
+    if (way->count > 0 && length > way->length * (1 + ROUNDING))
+        return CERTIFIED;
     kept = realloc(way->pose, (size_t)b->rows * sizeof *kept);
     if (kept == NULL)
-        return -1;
+        return BROKEN;
     memcpy(kept, b->row, (size_t)b->rows * sizeof *kept);
     way->pose = kept;
     way->count = b->rows;
     way->smooth = 1;
     way->length = length;
     way->deviation = deviation;
-    return 1;
+    return SHORTER;
 }
 
 int host_smooth(const host_answer *answer, const cage_pose *path, int32_t count, int certified, host_way *way, host_error *error)
 {
     band b;
-    int round, fine, done;
+    int round, fine, done, idle = 0;
 
     memset(way, 0, sizeof *way);
     way->found_length = way_length(path, count, way_radius(answer));
@@ -254,15 +286,16 @@ int host_smooth(const host_answer *answer, const cage_pose *path, int32_t count,
     b.width = BAND * b.radius;
     b.slack = b.width;
     b.weight = 0.2 * way->found_length / b.radius / b.stations;
-    for (round = 0; round < ROUNDS && fine && way->found_length > 0; round++) {
+    for (round = 0; round < ROUNDS && idle < IDLE && fine && way->found_length > 0; round++) {
         b.pace = 0.02;
         fine = descend(&b) == 0;
-        done = fine ? keep(&b, way) : -1;
-        fine = done >= 0;
-        if (done == 1)
-            b.width *= SHRINK; /* closer to the obstacles */
+        done = fine ? keep(&b, way) : BROKEN;
+        fine = done != BROKEN;
+        idle = done == CERTIFIED ? idle + 1 : 0;
+        if (done == COLLIDES)
+            b.weight *= PUSH;
         else
-            b.weight *= 1.7;
+            b.width *= SHRINK; /* closer to the obstacles, or with less of a push where it is narrow */
     }
     free_band(&b);
     if (fine)

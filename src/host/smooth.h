@@ -66,6 +66,12 @@ void way_rows(const way_station *station, int stations, const cage_pose *first, 
  * 1 or 0; -1: no memory. */
 int way_certify(const host_answer *answer, const cage_pose *row, int32_t rows, double *deviation);
 
+/* May the object go from one pose of the pivot to another on one leg, moving and turning at once? 1: proved. */
+int way_leg(const host_answer *answer, const cage_pose *from, const cage_pose *to);
+
+/* A station as a pose on the grid. */
+void way_pose(const way_station *at, int32_t dim, cage_pose *pose);
+
 /* CSV: t from 0 to 1, the object's pose, and where its pivot is. */
 int host_write_way(const char *path, const host_answer *answer, const host_way *way, host_error *error);
 

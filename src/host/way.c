@@ -148,7 +148,7 @@ static double slope(const way_station *station, int stations, int i, int k)
     return (station[i + 1].x[k] - station[i - 1].x[k]) / 2;
 }
 
-static void to_grid(const way_station *at, int32_t dim, cage_pose *pose)
+void way_pose(const way_station *at, int32_t dim, cage_pose *pose)
 {
     const double entry = dim == 2 ? CAGE_QUATERNION_2D : CAGE_QUATERNION_3D;
     int k;
@@ -179,7 +179,7 @@ void way_rows(const way_station *station, int stations, const cage_pose *first, 
 
             at.x[k] += t * u * (u * (slope(station, stations, i, k) - step) - t * (slope(station, stations, i + 1, k) - step));
         }
-        to_grid(&at, dim, &row[n]);
+        way_pose(&at, dim, &row[n]);
     }
     row[0] = *first;
     row[rows - 1] = *last;
@@ -228,6 +228,17 @@ static void to_user(const cage_pose *pose, const int32_t pivot[3], cage_pose *us
     *user = *pose;
     for (k = 0; k < 3; k++)
         user->x[k] = (int32_t)lrint(fmax(INT32_MIN, fmin(INT32_MAX, at.x[k])));
+}
+
+int way_leg(const host_answer *answer, const cage_pose *from, const cage_pose *to)
+{
+    const int32_t *pivot = answer->result->pivot;
+    const cage_pose leg[2] = { *from, *to };
+    cage_pose start, goal;
+
+    to_user(from, pivot, &start);
+    to_user(to, pivot, &goal);
+    return cage_path_check(&answer->grid->scene, &start, &goal, pivot, leg, 2) == 1;
 }
 
 int way_certify(const host_answer *answer, const cage_pose *row, int32_t rows, double *deviation)
