@@ -27,7 +27,7 @@ PIC_O   = $(CORE:src/%.c=build/pic/%.o)
 HOST_O  = $(HOST:src/host/%.c=build/host/%.o)
 
 .DEFAULT_GOAL = all
-.PHONY: FORCE all lib shared demo test soak bench bench-peers install uninstall clean help
+.PHONY: FORCE all lib shared demo test check-paths soak bench bench-peers install uninstall clean help
 
 all: build/cage ## the command build/cage and the static library
 lib: build/libcage.a ## the static library, from freestanding C99
@@ -106,6 +106,17 @@ build/soak build/soak_space: build/%: tests/%.c $(HELPERS) $(HEADERS) build/test
 
 build/soak_atlas: tests/soak_atlas.c $(HELPERS) $(HEADERS) build/sanitized/libhelpers.a
 	$(CC) -std=c99 -D_POSIX_C_SOURCE=200809L $(CFLAGS) $(SANITIZE) $(TEST_I) $< build/sanitized/libhelpers.a -lgmp -lm -o $@
+
+# Paths made smooth: a program with the command's own files beside its main, and what the command says.
+PATHS_O = $(filter-out build/host/main.o,$(HOST_O))
+build/check_paths: tests/paths/paths.c tests/random.c $(PATHS_O) build/libcage.a build/extras
+	$(CC) -std=c99 -D_XOPEN_SOURCE=700 $(CFLAGS) -Wall -Wextra -Wshadow -iquote src/host -Iinclude tests/paths/paths.c tests/random.c \
+	  $(PATHS_O) build/libcage.a $(EXTRA_L) -lm -pthread -o $@
+
+check-paths: ## smooth paths, candidates: install what they need (when it may), build and judge them
+	sh tests/paths/deps.sh
+	$(MAKE) --no-print-directory -s build/cage build/check_paths
+	sh tests/paths/run.sh build/cage
 
 soak: build/soak build/soak_space build/soak_atlas ## hunt for contradictions and crashes: build/soak FROM TO, likewise _space, _atlas
 	build/soak 1 2000

@@ -191,6 +191,24 @@ const cage_result *cage_prove_result(const cage_proof *proof);
 int32_t cage_prove_region(cage_proof *proof, const int32_t origin[3], int32_t pitch,
                           const int32_t count[3], uint8_t *mask);
 
+/* ---- candidates ----------------------------------------------------------------------------------- */
+
+/* One step of the inner way: a component of the slice of the cell whose representative rotation is q. */
+typedef struct cage_step {
+    int32_t q[4];
+    int32_t level;     /* of the cell; -1: the rotation of start or goal alone */
+    int32_t component; /* of its inner slice; 0: the outside */
+    int32_t pose;      /* the first on the path over this cell */
+} cage_step;
+
+/* After UNDEFINED, with the inner side: a way that the inner slices leave open (which a proof would have to close), as the
+ * sequence of (component, slice) pairs and as a decomposable path of the pivot, like cage_result.path. A CANDIDATE: balls made smaller
+ * can go it (each by how far it moves within the cells), the object itself may collide on it, and cage_path_check tells.
+ * count: {steps, poses}; what there is no room for is not written. 1: found; 0: there is none; or an error. It may
+ * build slices, and cage_prove_region is to be called before, not after. */
+int32_t cage_prove_candidate(cage_proof *proof, cage_step *step, int32_t steps, cage_pose *path, int32_t poses,
+                             int32_t count[2]);
+
 /* ---- margin -------------------------------------------------------------------------------------- */
 
 /* By how much every radius must shrink (negative: may grow) for the answer to change, the balls smaller than that gone:

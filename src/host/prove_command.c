@@ -17,7 +17,7 @@
 typedef struct options {
     const char *object, *obstacles, *start, *goal, *svg, *ply;
     const char *side, *max_level, *max_cells, *memory, *unit, *threads, *margin, *path;
-    int json, quiet, smooth;
+    int json, quiet, smooth, candidate;
 } options;
 
 void host_prove_help(FILE *out)
@@ -64,6 +64,8 @@ void host_prove_help(FILE *out)
         "                  must grow), by N more proofs, each twice as close\n"
         "  --smooth        make the path short and smooth: it then moves and turns at once, and goes through its poses on\n"
         "                  a curve without corners that is certified as a whole (needs CHOLMOD: cage --help says whether it is there)\n"
+        "                  An answer UNDEFINED becomes FREE or CONNECTED if a candidate can be smoothed so\n"
+        "  --candidate     when it is UNDEFINED show a way that was not closed: its cells, its path, where it collides\n"
         "  --path FILE     write the path as CSV: the time from 0 to 1, the object's pose like POSE, where its pivot is\n"
         "  --unit U        length of a grid unit (default: the finest power of two at which the scene\n"
         "                  fits). Balls between grid points are rounded to the safe side\n"
@@ -107,7 +109,7 @@ static int read_options(int argc, char **argv, options *given, host_error *error
         { "--memory", &given->memory, NULL },       { "--unit", &given->unit, NULL },
         { "--ply", &given->ply, NULL },             { "--threads", &given->threads, NULL },
         { "--margin", &given->margin, NULL },       { "--path", &given->path, NULL },
-        { "--smooth", NULL, &given->smooth },
+        { "--smooth", NULL, &given->smooth },       { "--candidate", NULL, &given->candidate },
         { "--json", NULL, &given->json },           { "--quiet", NULL, &given->quiet },
     };
     int code;
@@ -268,22 +270,45 @@ static int find_margin(const host_answer *answer, int32_t rounds, cage_margin *m
                                                   "--margin: %.200s", cage_error_text(state));
 }
 
-/* A path that is found is made smooth, and stands for the one that was. */
-static int smooth_path(host_answer *answer, cage_result *result, host_way *way, host_error *error)
+/* A path that is found is made smooth, and stands for the one that was; a candidate, if it becomes a path. */
+static int smooth_path(host_answer *answer, const host_candidate *candidate, cage_result *result, host_way *way,
+                       host_error *error)
 {
-    int code;
+    const int found = answer->result->path_count > 0;
+    int code = HOST_OK;
 
-    if (answer->result->path_count == 0)
+    if (!found && candidate->count < 2)
         return HOST_OK;
-    code = host_smooth(answer, answer->result->path, answer->result->path_count, 1, way, error);
-    if (code != HOST_OK)
-        return code;
     *result = *answer->result;
+    if (found)
+        code = host_smooth(answer, result->path, result->path_count, 1, way, error);
+    else
+        code = host_smooth(answer, candidate->pose, candidate->count, 0, way, error);
+    if (code != HOST_OK || way->count == 0)
+        return code;
     result->path = way->pose;
     result->path_count = way->count;
+    if (!found) {
+        result->verdict = answer->query->has_goal ? CAGE_CONNECTED : CAGE_FREE;
+        result->reason = CAGE_REASON_PATH;
+    }
     answer->result = result;
     answer->way = way;
+    answer->candidate = NULL; /* there is a path now */
     return check_path(answer, error);
+}
+
+static int find_candidate(const options *given, host_answer *answer, host_candidate *candidate, host_error *error)
+{
+    int code = HOST_OK;
+
+    if (answer->result->verdict == CAGE_UNDEFINED)
+        code = host_find_candidate(answer, candidate, error);
+    if (code == HOST_OK && given->candidate && candidate->count > 0) {
+        code = host_look_at_candidate(answer, candidate, error);
+        answer->candidate = candidate;
+    }
+    return code;
 }
 
 /* A path as it was found, or smoothed, to a file; without one the file is empty but for its header. */
@@ -297,15 +322,17 @@ static int write_path(const char *file, const host_answer *answer, host_error *e
     return host_write_way(file, answer, answer->way != NULL ? answer->way : &way, error);
 }
 
-static int show_answer(const options *given, host_answer *answer, host_way *way, host_error *error)
+static int show_answer(const options *given, host_answer *answer, host_candidate *candidate, host_way *way, host_error *error)
 {
     cage_margin margin;
     cage_result smoothed;
     int32_t rounds;
     int code = check_path(answer, error);
 
+    if (code == HOST_OK && (given->smooth || given->candidate))
+        code = find_candidate(given, answer, candidate, error);
     if (code == HOST_OK && given->smooth)
-        code = smooth_path(answer, &smoothed, way, error);
+        code = smooth_path(answer, candidate, &smoothed, way, error);
     if (code == HOST_OK && given->path != NULL)
         code = write_path(given->path, answer, error);
 
@@ -332,6 +359,7 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
 {
     host_answer answer;
     host_way way;
+    host_candidate candidate;
     cage_limits limits;
     job todo;
     double unit = 0;
@@ -368,6 +396,7 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
         host_warn_empty(given->object, given->obstacles, query);
     memset(&answer, 0, sizeof answer);
     memset(&way, 0, sizeof way);
+    memset(&candidate, 0, sizeof candidate);
     answer.query = query;
     answer.grid = grid;
     answer.limits = &limits;
@@ -377,8 +406,9 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
     code = host_in_block(cage_prove_size(&grid->scene, &limits), given->memory != NULL ? &bytes : NULL, attempt, &todo, block,
                          "query", error);
     if (code == HOST_OK)
-        code = show_answer(given, &answer, &way, error);
+        code = show_answer(given, &answer, &candidate, &way, error);
     host_free_way(&way);
+    host_free_candidate(&candidate);
     return code;
 }
 

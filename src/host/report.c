@@ -157,6 +157,23 @@ static void print_way(FILE *out, const host_answer *answer)
         (void)fprintf(out, "        not smoothed: no shorter path was certified; length %.6g\n", way->length * unit);
 }
 
+static void print_candidate(FILE *out, const host_answer *answer)
+{
+    const host_candidate *c = answer->candidate;
+    host_pose at;
+    int32_t i;
+
+    (void)fprintf(out, "Candidate  not proved: a way of %ld cells and %ld poses that balls made smaller can go; on it the object\n"
+                       "        %s\n",
+                  (long)c->steps, (long)c->count, c->places == 0 ? "was not seen to collide" : "collides:");
+    for (i = 0; i < c->places; i++) {
+        host_from_grid(&c->place[i].at, answer->result->pivot, answer->query->dim, answer->grid->unit, &at);
+        (void)fprintf(out, "        by %.3g at ", c->place[i].depth * answer->grid->unit);
+        host_print_pose(out, &at);
+        (void)fprintf(out, ", after pose %ld\n", (long)c->place[i].leg + 1);
+    }
+}
+
 void host_report_text(FILE *out, const host_answer *answer)
 {
     const cage_result *result = answer->result;
@@ -174,6 +191,8 @@ void host_report_text(FILE *out, const host_answer *answer)
     }
     if (answer->way != NULL)
         print_way(out, answer);
+    if (answer->candidate != NULL)
+        print_candidate(out, answer);
     if (answer->margin != NULL)
         print_margin(out, answer);
     print_unit(out, answer->grid);
@@ -256,20 +275,46 @@ static void json_margin(FILE *out, const host_answer *answer)
     (void)fprintf(out, ",\n");
 }
 
-static void json_path(FILE *out, const host_answer *answer)
+/* Poses of the pivot as a list. */
+static void json_poses(FILE *out, const cage_pose *list, int32_t count, const host_answer *answer)
 {
     const cage_result *result = answer->result;
     int32_t i;
 
-    (void)fprintf(out, "  \"path\": [");
-    for (i = 0; i < result->path_count; i++) {
+    (void)fprintf(out, "[");
+    for (i = 0; i < count; i++) {
         host_pose pose;
 
-        host_from_grid(&result->path[i], result->pivot, answer->query->dim, answer->grid->unit, &pose);
+        host_from_grid(&list[i], result->pivot, answer->query->dim, answer->grid->unit, &pose);
         (void)fprintf(out, "%s\n    ", i > 0 ? "," : "");
         json_pose(out, &pose);
     }
-    (void)fprintf(out, "%s]\n", result->path_count > 0 ? "\n  " : "");
+    (void)fprintf(out, "%s]", count > 0 ? "\n  " : "");
+}
+
+/* Steps: [quaternion of the cell's middle, level, component, first pose]; collisions: [pose, depth]. */
+static void json_candidate(FILE *out, const host_answer *answer)
+{
+    const host_candidate *c = answer->candidate;
+    int32_t i;
+
+    (void)fprintf(out, "  \"candidate\": {\n  \"steps\": [");
+    for (i = 0; i < c->steps; i++)
+        (void)fprintf(out, "%s\n    [[%ld, %ld, %ld, %ld], %ld, %ld, %ld]", i > 0 ? "," : "", (long)c->step[i].q[0],
+                      (long)c->step[i].q[1], (long)c->step[i].q[2], (long)c->step[i].q[3], (long)c->step[i].level,
+                      (long)c->step[i].component, (long)c->step[i].pose);
+    (void)fprintf(out, "],\n  \"collisions\": [");
+    for (i = 0; i < c->places; i++) {
+        host_pose at;
+
+        host_from_grid(&c->place[i].at, answer->result->pivot, answer->query->dim, answer->grid->unit, &at);
+        (void)fprintf(out, "%s\n    [", i > 0 ? "," : "");
+        json_pose(out, &at);
+        (void)fprintf(out, ", %.17g]", c->place[i].depth * answer->grid->unit);
+    }
+    (void)fprintf(out, "],\n  \"path\": ");
+    json_poses(out, c->pose, c->count, answer);
+    (void)fprintf(out, "},\n");
 }
 
 void host_report_json(FILE *out, const host_answer *answer)
@@ -304,6 +349,9 @@ void host_report_json(FILE *out, const host_answer *answer)
     if (answer->way != NULL)
         (void)fprintf(out, "  \"smooth\": %s,\n  \"length\": %.17g,\n  \"found_length\": %.17g,\n", answer->way->smooth ? "true" : "false",
                       answer->way->length * answer->grid->unit, answer->way->found_length * answer->grid->unit);
-    json_path(out, answer);
-    (void)fprintf(out, "}\n");
+    if (answer->candidate != NULL)
+        json_candidate(out, answer);
+    (void)fprintf(out, "  \"path\": ");
+    json_poses(out, result->path, result->path_count, answer);
+    (void)fprintf(out, "\n}\n");
 }

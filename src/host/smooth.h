@@ -95,4 +95,28 @@ double way_near_cost(const way_near *near, int index, const way_station *at, dou
 int host_smooth(const host_answer *answer, const cage_pose *path, int32_t count, int certified, host_way *way, host_error *error);
 void host_free_way(host_way *way);
 
+/* ---- candidate.c ------------------------------------------------------------------------------- */
+
+/* Where the object as given collides on a candidate, and by how much at most, in grid units. */
+typedef struct host_overlap {
+    cage_pose at; /* of the pivot */
+    double depth;
+    int32_t leg; /* it is on the leg from this pose to the next */
+} host_overlap;
+
+/* See cage_prove_candidate. */
+typedef struct host_candidate {
+    cage_step *step;
+    cage_pose *pose;
+    host_overlap *place;
+    int32_t steps, count, places;
+} host_candidate;
+
+/* The candidate of an answer; count 0: there is none. The caller frees it, whatever the outcome. */
+int host_find_candidate(const host_answer *answer, host_candidate *out, host_error *error);
+void host_free_candidate(host_candidate *candidate);
+
+/* Looks along its path, a hundredth of the object's radius at a time, for where it collides: samples, no proof. */
+int host_look_at_candidate(const host_answer *answer, host_candidate *candidate, host_error *error);
+
 #endif
