@@ -208,7 +208,8 @@ static void clip(struct cage_proof *proof)
         for (int32_t k = 0; k < 3; k++)
             last->x[k] = (int32_t)(from.x[k] + ((int64_t)to.x[k] - from.x[k]) * n / CLIPS);
         if (cage_certify_beyond(&proof->scene, proof->result.pivot, last->x) &&
-            cage_certify_leg(&proof->scene, proof->result.pivot, to.q, from.x, last->x, 0))
+            (proof->path_side == CAGE_INNER ||
+             cage_certify_leg(&proof->scene, proof->result.pivot, to.q, from.x, last->x, 0)))
             return;
     }
     *last = to;
@@ -243,7 +244,7 @@ int32_t cage_path_step(struct cage_proof *proof)
     }
     if (next)
         return 0;
-    if (!proof->graph.goal && proof->path_side == CAGE_OUTER)
+    if (!proof->graph.goal)
         clip(proof);
     if (proof->graph.goal && !append(proof, proof->at[1 - proof->origin], q))
         return CAGE_ERROR_MEMORY;

@@ -21,6 +21,8 @@ check() { # NAME COMMAND...
 check "paths, mutations and candidates" build/check_paths examples
 
 t="--object examples/hooked_t/t.xyzr --obstacles examples/hooked_t/slot_wide.xyzr --start 0,0,0"
+p="--object examples/space/peanut.xyzr --obstacles examples/space/chambers_wide.xyzr --start -3,0,0,0.707106781,0,0,0.707106781
+   --goal 3,0,0,0.707106781,0,0.707106781,0 --max-level 1"
 memcheck="valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=all"
 
 # The CSV: a header, times from 0 to 1 that grow, as many rows as the text says.
@@ -44,12 +46,12 @@ space() {
         --path "$folder/path.csv" --ply "$folder/path.ply" --quiet > "$folder/out" && csv 11
 }
 check "its file in space" space
-undefined() { [ "$("$command" prove $t --max-level 1 --quiet)" = UNDEFINED ]; }
+undefined() { [ "$("$command" prove $p --quiet)" = UNDEFINED ]; }
 check "coarse cells decide nothing" undefined
-becomes() { [ "$("$command" prove $t --max-level 1 --smooth --quiet)" = FREE ]; }
+becomes() { [ "$("$command" prove $p --smooth --quiet)" = CONNECTED ]; }
 check "but the candidate is smoothed to a path" becomes
 candidate() {
-    "$command" prove $t --max-level 1 --candidate --json > "$folder/json" &&
+    "$command" prove $p --candidate --json > "$folder/json" &&
         python3 -c 'import json, sys
 a = json.load(open(sys.argv[1]))
 c = a["candidate"]
@@ -60,5 +62,5 @@ check "it is shown, with where it collides" candidate
 refuses() { ! "$command" prove $t --smooth --path "$folder/none/path.csv" 2> "$folder/err" && grep -q -- '--path' "$folder/err"; }
 check "a file that cannot be written" refuses
 check "Valgrind, smooth" $memcheck "$command" prove $t --smooth --path "$folder/path.csv" --quiet
-check "Valgrind, candidate" $memcheck "$command" prove $t --max-level 1 --smooth --candidate --quiet
+check "Valgrind, candidate" $memcheck "$command" prove $t --max-level 1 --candidate
 [ "$failed" -eq 0 ]
