@@ -23,7 +23,7 @@ check "paths, mutations and candidates" build/check_paths examples
 t="--object examples/hooked_t/t.xyzr --obstacles examples/hooked_t/slot_wide.xyzr --start 0,0,0"
 p="--object examples/space/peanut.xyzr --obstacles examples/space/chambers_wide.xyzr --start -3,0,0,0.707106781,0,0,0.707106781
    --goal 3,0,0,0.707106781,0,0.707106781,0 --max-level 1"
-memcheck="valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=all"
+memcheck="valgrind -q --suppressions=tests/libgomp.supp --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=all"
 
 # The CSV: a header, times from 0 to 1 that grow, as many rows as the text says.
 csv() { # COLUMNS
