@@ -27,7 +27,8 @@ PIC_O   = $(CORE:src/%.c=build/pic/%.o)
 HOST_O  = $(HOST:src/host/%.c=build/host/%.o)
 
 .DEFAULT_GOAL = all
-.PHONY: FORCE all lib shared demo test check-paths soak bench bench-peers install uninstall clean help
+.PHONY: FORCE all lib shared demo test check-paths check-firmware check-python soak amalgamation packages bench bench-peers \
+  install uninstall clean help
 
 all: build/cage ## the command build/cage and the static library
 lib: build/libcage.a ## the static library, from freestanding C99
@@ -98,6 +99,9 @@ test: build/cage lib shared ## install what the tests need (when it may), build 
 	$(MAKE) --no-print-directory -j2 -s $(TEST_BIN) $(SANI_BIN) build/prove_in_c
 	sh tests/run.sh
 
+check-python: ## build the Python package, and test it in an environment of its own with what PyPI has
+	sh bindings/python/check.sh
+
 build/prove_in_c: examples/prove_in_c.c build/libcage.a
 	$(CC) -std=c99 $(CFLAGS) $(WARN) -Iinclude $< build/libcage.a -o $@
 
@@ -123,6 +127,10 @@ soak: build/soak build/soak_space build/soak_atlas ## hunt for contradictions an
 	build/soak_space 1 300
 	build/soak_atlas 1 500
 
+check-firmware: build/cage ## firmware builds: install toolchains (when it may), build, run in emulators, compare, measure
+	sh tests/firmware/deps.sh
+	sh tests/firmware/check.sh
+
 # ---- benchmarks ------------------------------------------------------------------------------------
 
 BENCH = $(wildcard tests/bench/*.c)
@@ -142,6 +150,14 @@ bench: build/bench/bench build/bench/unpruned ## time triangulations, slices and
 bench-peers: build/bench/bench build/bench/peer ## the same beside CGAL, pair by pair (needs libcgal-dev)
 	sh tests/bench/compare.sh build/bench/bench build/bench/peer
 
+# ---- the library as two files, and packages of it ---------------------------------------------------
+
+amalgamation: ## the library as two files, build/dist/cage.c and cage.h
+	sh tests/amalgamate.sh build/dist
+
+packages: amalgamation ## for Zephyr, ESP-IDF, PlatformIO and Arduino, CMSIS-Pack: archives in build/packages
+	sh bindings/pack.sh build/dist build/packages
+
 # ---- installation ----------------------------------------------------------------------------------
 
 build/libcage.pc: Makefile include/cage.h
@@ -150,17 +166,22 @@ build/libcage.pc: Makefile include/cage.h
 	  'Description: Prove that a rigid object is caged, or find its way out' 'Version: $(VERSION)' \
 	  'Libs: -L$${libdir} -lcage' 'Cflags: -I$${includedir}' > $@
 
-install: build/cage lib shared build/libcage.pc ## library, header, pkg-config file, and the command as cage-prove
+install: build/cage lib shared build/libcage.pc ## library, header, pkg-config and CMake files, and the command as cage-prove
 	mkdir -p $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/lib/pkgconfig
 	cp build/cage $(DESTDIR)$(PREFIX)/bin/cage-prove
 	cp include/cage.h $(DESTDIR)$(PREFIX)/include/
 	cp build/libcage.a build/libcage.so.$(ABI) $(DESTDIR)$(PREFIX)/lib/
 	ln -sf libcage.so.$(ABI) $(DESTDIR)$(PREFIX)/lib/libcage.so
 	cp build/libcage.pc $(DESTDIR)$(PREFIX)/lib/pkgconfig/
+	mkdir -p $(DESTDIR)$(PREFIX)/lib/cmake/libcage
+	cp bindings/cmake/libcageConfig.cmake $(DESTDIR)$(PREFIX)/lib/cmake/libcage/
+	sed 's/@VERSION@/$(VERSION)/' bindings/cmake/libcageConfigVersion.cmake \
+	  > $(DESTDIR)$(PREFIX)/lib/cmake/libcage/libcageConfigVersion.cmake
 
 uninstall: ## remove what install has put there
 	rm -f $(DESTDIR)$(PREFIX)/bin/cage-prove $(DESTDIR)$(PREFIX)/include/cage.h $(DESTDIR)$(PREFIX)/lib/libcage.a \
 	  $(DESTDIR)$(PREFIX)/lib/libcage.so $(DESTDIR)$(PREFIX)/lib/libcage.so.$(ABI) $(DESTDIR)$(PREFIX)/lib/pkgconfig/libcage.pc
+	rm -rf $(DESTDIR)$(PREFIX)/lib/cmake/libcage
 
 clean: ## remove build
 	rm -rf build

@@ -155,6 +155,15 @@ void cage_limits_default(cage_limits *limits, int32_t dim);
  * ones. 0 if the scene or the limits are not valid. */
 size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits);
 
+/* The same as a constant expression, for a block that is an array: never less than cage_prove_size, and at most 2.1 times that.
+ * For shapes whose inner and outer counts are not more than these, and limits with that many cells. */
+#define CAGE_PROVE_BYTES(dim, objects, obstacles, max_cells)                                                              \
+    ((dim) == 2 ? CAGE_PROVE_BYTES_OF_ONE(objects, 600ul * (objects) * (obstacles), 1ul * (max_cells))                    \
+                : 3 * CAGE_PROVE_BYTES_OF_ONE(objects, 1400ul * (objects) * (obstacles), ((max_cells) + 1ul) / 2))
+#define CAGE_PROVE_BYTES_OF_ONE(objects, work, cells)                                                                     \
+    (2304 + 40ul * (objects) + 112 * (cells) +                                                                            \
+     4 * ((work) / 2 + 16384 > 32768 + 64 * (cells) ? (work) / 2 + 16384 : 32768 + 64 * (cells)))
+
 /* Ask: can the object leave the start (goal null), or get from start to goal? The scene's balls are
  * read until the proof is finished; memory (any alignment) is used until the result was read. Limits null: the default
  * ones. When this fails *proof is not written, so after CAGE_ERROR_MEMORY there is no result to read needed_bytes from:
@@ -162,9 +171,11 @@ size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits);
 int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage_pose *start,
                          const cage_pose *goal, const cage_limits *limits, void *memory, size_t bytes);
 
-/* Do at most that many steps; a step builds one slice, glues one pair of slices, refines one cell, or writes or
- * shortens one leg of a path. 1: finished, 0: more to do, negative: an error (the result keeps its counts, and
- * needed_bytes). The answer does not depend on how the steps are portioned. */
+/* Do at most that many steps; a step builds one slice, glues one pair of slices, refines one cell, or writes or shortens one leg
+ * of a path. With n object balls and m obstacle balls a slice triangulates at most n m balls, and a step 6 n m: two slices that
+ * were dropped and are built again, at worst twice, and their balls together. Beside that a step goes through cells and known
+ * edges, and the last one of a path checks all of it. 1: finished, 0: more to do, negative: an error (the result keeps its
+ * counts, and needed_bytes). The answer does not depend on how the steps are portioned. */
 int32_t cage_prove_run(cage_proof *proof, int64_t steps);
 
 /* Several cores for one proof. run calls task(data, i, w) once for each i in 0..tasks - 1, in any order, all at once
@@ -224,9 +235,10 @@ typedef struct cage_margin {
                          overlap most (x is where the pivot is) */
 } cage_margin;
 
-/* Find it with so many proofs by bisection, as many as the first bounds take, and one for `narrow`. The number that ranks grasps: how tight a cage
- * is. All memory is scratch. Errors of cage_prove_begin and cage_prove_run; then *out is not written. Radii shrink ball by ball: where
- * the inner and the outer balls of a shape differ much in size, the margin is one of these balls, not of the shape. */
+/* Find it with so many proofs by bisection, as many as the first bounds take, and one for `narrow`. The number that ranks
+ * grasps: how tight a cage is. All memory is scratch. Errors of cage_prove_begin and cage_prove_run; then *out is not
+ * written. Radii shrink ball by ball: where the inner and the outer balls of a shape differ much in size, the margin is one
+ * of these balls, not of the shape. */
 int32_t cage_margin_find(const cage_scene *scene, const cage_pose *start, const cage_pose *goal, const cage_limits *limits,
                          int32_t rounds, void *memory, size_t bytes, cage_margin *out);
 
@@ -309,9 +321,9 @@ size_t cage_survey_facts(const cage_survey *survey, void *out, size_t bytes);
  * scene, another plan or another version: facts are believed. After CAGE_ERROR_MEMORY see needed_bytes, and begin anew. */
 int32_t cage_survey_learn(cage_survey *survey, const void *bytes, size_t size);
 
-/* Before the first step: work on a part only, one of so many; 1 from cage_survey_run then means that all its slices are built and
- * glued with each other. There is no atlas; facts are what it is for: a survey that learns those of all parts, made anywhere, has
- * left to do what is between them. */
+/* Before the first step: work on a part only, one of so many; 1 from cage_survey_run then means that all its slices are built
+ * and glued with each other. There is no atlas; facts are what it is for: a survey that learns those of all parts, made
+ * anywhere, has left to do what is between them. */
 int32_t cage_survey_part(cage_survey *survey, int32_t part, int32_t parts);
 
 /* ---- atlas: asking ------------------------------------------------------------------------------- */
@@ -347,9 +359,9 @@ int32_t cage_atlas_open(cage_atlas *atlas, const void *bytes, size_t size);
 
 /* What is proved about the start (goal null), or start and goal, user's frame: a verdict, exact on the borders of cells as
  * well, or an error. What cage_prove_begin with any limits answers is never another one, but one of both may be UNDEFINED.
- * Reads as a rule a few hundred words of the atlas; at most 7000 for each pose, side and cell that holds its rotation, of which there
- * are 2 at most in the plane and 8 in space (and the balls, where neither side tells whether they overlap). Optimised for size or
- * speed it takes less than 2 KB of stack. */
+ * Reads as a rule a few hundred words of the atlas; at most 7000 for each pose, side and cell that holds its rotation, of
+ * which there are 2 at most in the plane and 8 in space (and the balls, where neither side tells whether they overlap).
+ * Optimised for size or speed it takes less than 2 KB of stack. */
 int32_t cage_atlas_ask(const cage_atlas *atlas, const cage_pose *start, const cage_pose *goal);
 
 /* The class of a pose on one side, or CAGE_NO_CLASS where balls cover it: on the inner side it then collides. */
@@ -358,9 +370,9 @@ int32_t cage_atlas_locate(const cage_atlas *atlas, const cage_pose *pose, int32_
 
 int32_t cage_atlas_class(const cage_atlas *atlas, int32_t side, int32_t class_number, cage_class *out);
 
-/* The corners of a cell, 0 <= cell < atlas->leaves: quaternions, 2 in the plane and 8 in space, corner k at the high end of axis i
- * if bit i of k is set. The cell's rotations are those between them: their quaternions are sums of positive multiples of the corners.
- * q: its representative rotation. Returns how many corners it has. */
+/* The corners of a cell, 0 <= cell < atlas->leaves: quaternions, 2 in the plane and 8 in space, corner k at the high end of
+ * axis i if bit i of k is set. The cell's rotations are those between them: their quaternions are sums of positive multiples
+ * of the corners. q: its representative rotation. Returns how many corners it has. */
 int32_t cage_atlas_cell(const cage_atlas *atlas, int32_t cell, int32_t q[4], int32_t corner[8][4]);
 
 /* A solid box of translations of the pivot. */
@@ -369,12 +381,34 @@ typedef struct cage_atlas_box {
     int32_t whole; /* 1: all of it belongs to the class over all of the cell, 0: part of it may */
 } cage_atlas_box;
 
-/* Visit boxes that between them hold all translations that belong to the class over the cell (of class 0 those within the bounding
- * box of the cell's balls), but for gaps of one unit between boxes. Boxes of which only part may belong to it are halved along each
- * axis to find out, down to 1 / 2^halvings (0 to 20) of the size of the class (or of that box). For volumes and pictures. How many
- * were visited, or an error. */
+typedef void cage_visit(void *context, const cage_atlas_box *box);
+
+/* Visit boxes that between them hold all translations that belong to the class over the cell (of class 0 those within the
+ * bounding box of the cell's balls), but for gaps of one unit between boxes. Boxes of which only part may belong to it are
+ * halved along each axis to find out, down to 1 / 2^halvings (0 to 20) of the size of the class (or of that box). For volumes
+ * and pictures. How many were visited, or an error. */
 int64_t cage_atlas_boxes(const cage_atlas *atlas, int32_t side, int32_t cell, int32_t class_number, int32_t halvings,
-                         void (*visit)(void *context, const cage_atlas_box *box), void *context);
+                         cage_visit *visit, void *context);
+
+/* ---- bindings ------------------------------------------------------------------------------------ */
+
+/* What a program that read no header (a binding in another language) compares with its own tables before it calls anything
+ * else: CAGE_ABI of this library, and the size of a struct above, 0 for an unknown number. */
+#define CAGE_STRUCT_BALL 0
+#define CAGE_STRUCT_SHAPE 1
+#define CAGE_STRUCT_SCENE 2
+#define CAGE_STRUCT_POSE 3
+#define CAGE_STRUCT_LIMITS 4
+#define CAGE_STRUCT_RESULT 5
+#define CAGE_STRUCT_WORKERS 6
+#define CAGE_STRUCT_MARGIN 7
+#define CAGE_STRUCT_PLAN 8
+#define CAGE_STRUCT_SURVEY_RESULT 9
+#define CAGE_STRUCT_ATLAS 10
+#define CAGE_STRUCT_CLASS 11
+#define CAGE_STRUCT_BOX 12
+int32_t cage_abi(void);
+size_t cage_struct_size(int32_t which);
 
 /* ---- words --------------------------------------------------------------------------------------- */
 const char *cage_verdict_text(int32_t verdict); /* "CAGED", ... */

@@ -8,7 +8,7 @@
 enum { NEAR_END = 4096 };
 
 /* Misses before looking ahead again; twice as many each time that hardly anything was found. */
-enum { PATIENCE = 3, LONGEST = 24, WORTHWHILE = 4 };
+enum { PATIENCE = 3, PATIENCE_MAX = 24, WORTHWHILE = 4 };
 
 /* Open nodes looked at, and the least memory for a worker. */
 enum { NODES = 64, LEAST = 1 << 16 };
@@ -149,7 +149,7 @@ void cage_ahead_tidy(struct cage_ahead *ahead, const cage_workers *workers)
 void cage_ahead_do(struct cage_ahead *ahead, const cage_workers *workers)
 {
     int32_t fresh = ahead->units - ahead->first, longer = 2 * ahead->patience;
-    ahead->patience = fresh >= WORTHWHILE ? PATIENCE : longer < LONGEST ? longer : LONGEST;
+    ahead->patience = fresh >= WORTHWHILE ? PATIENCE : longer < PATIENCE_MAX ? longer : PATIENCE_MAX;
     for (int32_t half = 0; half < 2 && fresh > 1; half++) {
         ahead->gluing = half == 1;
         workers->run(workers->context, fresh, work, ahead);

@@ -4,7 +4,8 @@
 
 #include "cage.h"
 
-/* Words of 32 bits, least significant byte first; places are counted in words from the beginning. The head, after the five words of words.h: */
+/* Words of 32 bits, least significant byte first; places are counted in words from the beginning. The head, after the five
+ * words of words.h: */
 enum {
     CAGE_ATLAS_DIM = 5,      /* 2 or 3 */
     CAGE_ATLAS_SIDES = 6,    /* CAGE_SIDE_... */

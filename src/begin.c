@@ -82,24 +82,51 @@ static uint64_t work_bytes(const cage_scene *scene)
     return (scene->dim == 2 ? 600 : 1400) * (inner > outer ? inner : outer) + 32768;
 }
 
-/* What is left of the block is shared out: a quarter for facts (half, when all of them are kept); two thirds of the rest to
- * work in, or as much as that ever takes and an eighth; and what then is left to hold slices. */
+/* What is left of the block is shared out: of the first 256 KiB a 16th for facts and 9 20ths to work in, of what is beyond a
+ * quarter and half; all others are to hold slices, at the expense of which there can be more facts later, and so is what working
+ * cannot take: the most it ever takes and an eighth. (Each part grows with the block: a larger one serves as well.) Where all
+ * facts are kept, half is for them and a third to work in. */
 enum { FACTS_PART = 4, WORK_PART = 2, ALL_FACTS_PART = 2, ALL_WORK_PART = 3, LEAST_WORK_PART = 8, WORK_TIMES = 4 };
+enum { FIRST_BYTES = 256 << 10, FIRST_FACTS_PART = 16, FIRST_WORK_20THS = 9, SPARE_POSES = 64 };
 
 static size_t facts_part(const struct cage_proof *proof) { return proof->all ? ALL_FACTS_PART : FACTS_PART; }
 static size_t work_part(const struct cage_proof *proof) { return proof->all ? ALL_WORK_PART : WORK_PART; }
 
 static void share_out(struct cage_proof *proof)
 {
-    size_t left = proof->arena.size - proof->arena.used, facts = left / facts_part(proof) / CAGE_ALIGN * CAGE_ALIGN;
-    uint64_t most = left / work_part(proof), work = WORK_TIMES * work_bytes(&proof->scene) + left / LEAST_WORK_PART;
+    size_t left = proof->arena.size - proof->arena.used, first = left < FIRST_BYTES ? left : FIRST_BYTES;
+    first = proof->all ? 0 : first;
+    size_t facts = (first / FIRST_FACTS_PART + (left - first) / facts_part(proof)) / CAGE_ALIGN * CAGE_ALIGN;
+    uint64_t most = first / 20 * FIRST_WORK_20THS + (left - first) / work_part(proof);
+    uint64_t work = WORK_TIMES * work_bytes(&proof->scene) + left / LEAST_WORK_PART;
     size_t hold = left - facts - (size_t)(work < most ? work : most);
     hold = hold / CAGE_ALIGN * CAGE_ALIGN;
     unsigned char *at = proof->arena.base + proof->arena.used + facts;
     proof->shared = left;
+    proof->fixed = proof->arena.used;
     proof->arena.size = proof->arena.used + facts;
     cage_store_init(&proof->store, at, hold);
     cage_arena_init(&proof->scratch, at + hold, left - facts - hold);
+}
+
+bool cage_proof_make_room(struct cage_proof *proof)
+{
+    struct cage_arena *arena = &proof->arena;
+    struct cage_store *store = &proof->store;
+    size_t missing = arena->needed > arena->size ? arena->needed - arena->size : 0;
+    if (proof->path && proof->path_count == proof->path_room)
+        missing = SPARE_POSES * sizeof *proof->path;
+    size_t more = (arena->size - proof->fixed) / FIRST_FACTS_PART;
+    more = ((more > missing ? more : missing) + CAGE_ALIGN - 1) / CAGE_ALIGN * CAGE_ALIGN;
+    if (missing == 0 || more > store->size)
+        return false;
+    cage_store_clear(store);
+    cage_store_init(store, store->base + more, store->size - more);
+    arena->size += more;
+    arena->needed = 0;
+    if (proof->path)
+        proof->path_room = (int32_t)((arena->size - arena->used) / sizeof *proof->path);
+    return true;
 }
 
 /* Enough for one search. */
@@ -130,6 +157,10 @@ static void share_limits(const cage_limits *limits, cage_limits *first, cage_lim
 
 /* The second search has a third of the block. */
 static size_t bytes_of_second(size_t bytes) { return bytes / 3; }
+
+/* CAGE_PROVE_BYTES takes these to be large enough; else this divides by 0. */
+enum { HEAD_BYTES = sizeof(struct cage_proof) + 16 * CAGE_ALIGN, CELL_BYTES = sizeof(struct cage_leaf) };
+enum { PROVE_BYTES_HOLDS = 1 / (HEAD_BYTES <= 2048 && CELL_BYTES <= 112 ? 1 : 0) };
 
 size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits)
 {
@@ -164,7 +195,7 @@ static uint64_t needed_by_one(const struct cage_proof *proof)
     } else if (proof->arena.needed > proof->arena.size) {
         shared = proof->shared + facts_part(proof) * ((uint64_t)(proof->arena.needed - proof->arena.size) + CAGE_ALIGN);
     }
-    return proof->arena.size - proof->shared / facts_part(proof) + (shared < least ? least : shared) + 16 * CAGE_ALIGN;
+    return proof->fixed + (shared < least ? least : shared) + 16 * CAGE_ALIGN;
 }
 
 uint64_t cage_proof_needed(const struct cage_proof *proof)

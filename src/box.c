@@ -6,7 +6,7 @@
 #include "box.h"
 #include "grid.h"
 
-static void widen(struct cage_box *box, int32_t dim, const int32_t at[3], int64_t by)
+static void widen_box(struct cage_box *box, int32_t dim, const int32_t at[3], int64_t by)
 {
     for (int32_t k = 0; k < dim; k++) {
         box->low[k] = at[k] - by < box->low[k] ? at[k] - by : box->low[k];
@@ -31,7 +31,7 @@ bool cage_box_make(const struct cage_slice *slice, const int32_t *simplex, int32
             return false;
         const int32_t from[3] = {at[0] - v[0]->x, at[1] - v[0]->y, at[2] - v[0]->z}; /* < 2^29 */
         int64_t away = (int64_t)cage_length(from) + 1, square = away * away - (int64_t)v[0]->r * v[0]->r; /* at: < 1 off */
-        widen(box, t->dim, at, square > 0 ? (int64_t)cage_u128_root(cage_i128_of(square)) + 2 : 2);
+        widen_box(box, t->dim, at, square > 0 ? (int64_t)cage_u128_root(cage_i128_of(square)) + 2 : 2);
     }
     return simplices > 0;
 }

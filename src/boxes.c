@@ -45,10 +45,10 @@ int32_t cage_atlas_cell(const cage_atlas *atlas, int32_t cell, int32_t q[4], int
 
 /* ---- boxes of a class ------------------------------------------------------------------------------------ */
 
-enum { DEEPEST = 32, MOST_HALVINGS = 20 };
+enum { BOXES_DEEPEST = 32, MOST_HALVINGS = 20 };
 
 /* A box that was halved: whether by the chart, and what is to be done. */
-struct frame {
+struct box_frame {
     int32_t low[3];
     int32_t bits;   /* of its size */
     uint32_t entry; /* of the chart: where its halves' entries begin, or the list that holds for all of them */
@@ -65,7 +65,7 @@ struct visitor {
     uint32_t class;
     int32_t least;   /* bits of the smallest boxes that are halved for their lists */
     int32_t low[3], high[3]; /* beyond that box there is nothing of it */
-    void (*visit)(void *context, const cage_atlas_box *box);
+    cage_visit *visit;
     void *context;
     int64_t count;
     int32_t splits;  /* of the chart, which has no more than the atlas has words */
@@ -87,11 +87,11 @@ static bool may_hold(const struct visitor *v, uint32_t list)
     return may;
 }
 
-enum { NONE, PART, WHOLE };
+enum { NOTHING, PART, WHOLE };
 
-/* How much of the box belongs to the class: looks at the balls that may meet it, and leaves those that do. Where none does, all of
- * it lies in one component. */
-static int32_t share(const struct visitor *v, struct frame *f, const cage_atlas_box *at)
+/* How much of the box belongs to the class: looks at the balls that may meet it, and leaves those that do. Where none does,
+ * all of it lies in one component. */
+static int32_t share_of(const struct visitor *v, struct box_frame *f, const cage_atlas_box *at)
 {
     uint32_t balls = cage_read_word(v->atlas, f->entry) & 65535;
     const struct cage_box box = {{at->low[0], at->low[1], at->low[2]}, {at->high[0], at->high[1], at->high[2]}};
@@ -104,18 +104,18 @@ static int32_t share(const struct visitor *v, struct frame *f, const cage_atlas_
         if (cage_box_is_apart(&box, &site))
             f->met[i / 32] &= ~((uint32_t)1 << i % 32);
         else if (cage_box_is_held(&box, &site))
-            return NONE;
+            return NOTHING;
         else
             met = true;
     }
     if (met)
         return PART;
-    return is_in(v, cage_read_list(v->atlas, v->chart, f->entry, at->low)) ? WHOLE : NONE;
+    return is_in(v, cage_read_list(v->atlas, v->chart, f->entry, at->low)) ? WHOLE : NOTHING;
 }
 
 static void tell(struct visitor *v, cage_atlas_box *box, int32_t share)
 {
-    if (share == NONE)
+    if (share == NOTHING)
         return;
     box->whole = share == WHOLE;
     v->visit(v->context, box);
@@ -123,7 +123,7 @@ static void tell(struct visitor *v, cage_atlas_box *box, int32_t share)
 }
 
 /* A half of the frame's box, clipped to the box of the class (of class 0: of all balls); false: nothing is left of it. */
-static bool half_of(const struct visitor *v, const struct frame *f, uint32_t half, cage_atlas_box *box)
+static bool half_of_box(const struct visitor *v, const struct box_frame *f, uint32_t half, cage_atlas_box *box)
 {
     for (uint32_t k = 0; k < 3; k++) {
         bool used = k < (uint32_t)v->atlas->dim;
@@ -138,11 +138,11 @@ static bool half_of(const struct visitor *v, const struct frame *f, uint32_t hal
 }
 
 /* The next half of the frame: visited, passed by, or (true) to be halved itself, as *next. */
-static bool look_at(struct visitor *v, struct frame *f, struct frame *next)
+static bool visit_half(struct visitor *v, struct box_frame *f, struct box_frame *next)
 {
     uint32_t half = --f->left, entry = f->listed ? CAGE_CHART_LIST : cage_read_word(v->atlas, f->entry + half);
     cage_atlas_box box;
-    if (!half_of(v, f, half, &box))
+    if (!half_of_box(v, f, half, &box))
         return false;
     *next = *f;
     for (uint32_t k = 0; k < 3; k++)
@@ -155,12 +155,12 @@ static bool look_at(struct visitor *v, struct frame *f, struct frame *next)
         memset(next->met, 0xff, sizeof next->met);
     }
     if ((entry & 3) == CAGE_CHART_LABEL)
-        tell(v, &box, is_in(v, (int32_t)(entry >> 2) - 1) ? WHOLE : NONE);
+        tell(v, &box, is_in(v, (int32_t)(entry >> 2) - 1) ? WHOLE : NOTHING);
     if ((entry & 3) == CAGE_CHART_SPLIT)
         return next->bits > 0 && v->splits++ < v->atlas->words;
     if ((entry & 3) != CAGE_CHART_LIST || (!f->listed && !may_hold(v, next->entry)))
         return false;
-    int32_t part = share(v, next, &box);
+    int32_t part = share_of(v, next, &box);
     if (part == PART && next->bits > 0 && next->bits > v->least)
         return true;
     tell(v, &box, part);
@@ -168,7 +168,7 @@ static bool look_at(struct visitor *v, struct frame *f, struct frame *next)
 }
 
 /* The box that holds all that is looked for; bits of its longest side. */
-static int32_t bound(struct visitor *v, uint32_t table)
+static int32_t find_bounds(struct visitor *v, uint32_t table)
 {
     int32_t bits = 0;
     for (uint32_t k = 0; k < 3; k++) {
@@ -194,19 +194,20 @@ static bool is_over(const cage_atlas *atlas, int32_t side, int32_t cell, const s
 }
 
 int64_t cage_atlas_boxes(const cage_atlas *atlas, int32_t side, int32_t cell, int32_t class_number, int32_t halvings,
-                         void (*visit)(void *context, const cage_atlas_box *box), void *context)
+                         cage_visit *visit, void *context)
 {
     if (!is_side(atlas, side) || !visit || cell < 0 || cell >= atlas->leaves || class_number < 0 || halvings < 0 ||
         halvings > MOST_HALVINGS || class_number >= atlas->classes[side == CAGE_SIDE_OUTER])
         return CAGE_ERROR_ARGUMENT;
     uint32_t leaf = cage_read_side(atlas, side == CAGE_SIDE_OUTER, CAGE_SIDE_LEAF) + 2 * (uint32_t)cell;
     struct visitor v = {atlas, cage_read_word(atlas, leaf), cage_read_word(atlas, leaf + 1),
-                        cage_read_side(atlas, side == CAGE_SIDE_OUTER, CAGE_SIDE_CLASS), (uint32_t)class_number, 0, {0, 0, 0}, {0, 0, 0}, visit, context, 0, 0};
+                        cage_read_side(atlas, side == CAGE_SIDE_OUTER, CAGE_SIDE_CLASS), (uint32_t)class_number, 0,
+                        {0, 0, 0}, {0, 0, 0}, visit, context, 0, 0};
     int32_t bits = (int32_t)(cage_read_word(atlas, v.chart + CAGE_CHART_BITS) & 31), depth = 0;
     uint32_t table = cage_read_side(atlas, side == CAGE_SIDE_OUTER, CAGE_SIDE_TABLE) + (uint32_t)class_number * CAGE_CLASS_WORDS;
-    struct frame frame[DEEPEST];
+    struct box_frame frame[BOXES_DEEPEST];
     bits = bits < 29 ? bits : 29;
-    v.least = bound(&v, table) - halvings;
+    v.least = find_bounds(&v, table) - halvings;
     /* The root is the low half of a box twice as large, of which nothing else is done. */
     memset(&frame[0], 0, sizeof frame[0]);
     for (uint32_t k = 0; k < 3; k++)
@@ -219,7 +220,7 @@ int64_t cage_atlas_boxes(const cage_atlas *atlas, int32_t side, int32_t cell, in
     while (depth >= 0) {
         if (frame[depth].left == 0)
             depth--;
-        else if (look_at(&v, &frame[depth], &frame[depth + 1]))
+        else if (visit_half(&v, &frame[depth], &frame[depth + 1]))
             depth++;
     }
     return v.splits > atlas->words ? CAGE_ERROR_ATLAS : v.count;

@@ -8,7 +8,7 @@
 #include "body.h"
 #include "wide.h"
 
-enum { PLACE_LIMIT = 1 << 30, PIECES = 1 << 10 };
+enum { PLACE_LIMIT = 1 << 30, CERTIFY_PIECES = 1 << 10 };
 
 /* A leg that does both is halved so often at most, and its quaternions are of this length. */
 enum { HALVINGS = 10, LENGTH = (1 << 30) - 8 };
@@ -29,7 +29,7 @@ static void turned(const int32_t q[4], const int32_t v[3], cage_i128 out[3], int
 }
 
 /* R(q)(ball - pivot) to the nearest grid point; true if that is exact. */
-static bool place(const int32_t q[4], const cage_ball *ball, const int32_t pivot[3], int64_t at[3])
+static bool place_ball(const int32_t q[4], const cage_ball *ball, const int32_t pivot[3], int64_t at[3])
 {
     const int32_t v[3] = {ball->x - pivot[0], ball->y - pivot[1], ball->z - pivot[2]};
     cage_i128 n[3];
@@ -74,7 +74,7 @@ bool cage_certify_leg(const cage_scene *scene, const int32_t pivot[3], const int
     for (int32_t i = 0; i < scene->object.outer_count; i++) {
         const cage_ball *y = &scene->object.outer[i];
         int64_t at[3];
-        int64_t inexact = place(q, y, pivot, at) ? 0 : 1;
+        int64_t inexact = place_ball(q, y, pivot, at) ? 0 : 1;
         for (int32_t j = 0; j < scene->obstacles.outer_count; j++) {
             const cage_ball *x = &scene->obstacles.outer[j];
             const int64_t centre[3] = {x->x - at[0], x->y - at[1], x->z - at[2]};
@@ -92,8 +92,8 @@ static bool arc_clear(const cage_scene *scene, const int32_t pivot[3], const int
     for (int32_t i = 0; i < scene->object.outer_count; i++) {
         const cage_ball *y = &scene->object.outer[i];
         int64_t at[3], to[3];
-        place(q, y, pivot, at);
-        place(r, y, pivot, to);
+        place_ball(q, y, pivot, at);
+        place_ball(r, y, pivot, to);
         const int32_t moved[3] = {(int32_t)(to[0] - at[0]), (int32_t)(to[1] - at[1]), (int32_t)(to[2] - at[2])};
         cage_i128 square = cage_i128_of(0);
         for (int32_t k = 0; k < 3; k++)
@@ -373,7 +373,7 @@ int32_t cage_path_check(const cage_scene *scene, const cage_pose *start, const c
         if (same_rotation(a->q, b->q))
             clear = cage_certify_leg(scene, pivot, a->q, a->x, b->x, 0);
         else if (same_place(a->x, b->x))
-            clear = cage_certify_turn(scene, pivot, a->x, a->q, b->q, PIECES);
+            clear = cage_certify_turn(scene, pivot, a->x, a->q, b->q, CERTIFY_PIECES);
         else
             clear = cage_certify_move(scene, pivot, a, b);
         if (!clear)

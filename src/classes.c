@@ -94,7 +94,7 @@ static void add(struct cage_sum *sum, const struct cage_extent *by, int32_t leaf
 
 /* ---- the rotations of a class ---------------------------------------------------------------------------- */
 
-static int64_t dot(const int32_t a[4], const int32_t b[4]) /* |entries| <= 2^30, two at most in the plane; else 2^24: < 2^62 */
+static int64_t dot_of(const int32_t a[4], const int32_t b[4]) /* |entries| <= 2^30, two at most in the plane; else 2^24: < 2^62 */
 {
     return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2] + (int64_t)a[3] * b[3];
 }
@@ -110,7 +110,7 @@ static void scale(const int64_t from[4], const int32_t toward[4], int32_t bits, 
     int32_t less = (int32_t)cage_u64_bits(largest) - bits;
     for (int32_t k = 0; k < 4; k++)
         to[k] = (int32_t)(less > 0 ? from[k] / ((int64_t)1 << less) : from[k] * ((int64_t)1 << -less));
-    if (toward && dot(to, toward) < 0)
+    if (toward && dot_of(to, toward) < 0)
         for (int32_t k = 0; k < 4; k++)
             to[k] = -to[k];
 }
@@ -140,15 +140,15 @@ static void find_middles(const struct cage_survey *survey, int32_t side, struct 
     }
 }
 
-/* The largest sine of half the turn from q to a rotation of the cell, in units of 2^-30. Corners within 90 degrees (as quaternions)
- * of q: the cell is then a convex part of that hemisphere, on which the angle from q has its maximum at a corner; and the sine
- * rises with it. Else 1. */
+/* The largest sine of half the turn from q to a rotation of the cell, in units of 2^-30. Corners within 90 degrees (as
+ * quaternions) of q: the cell is then a convex part of that hemisphere, on which the angle from q has its maximum at a
+ * corner; and the sine rises with it. Else 1. */
 static int32_t sine_of(const struct cage_fibre *fibre, const struct cage_cell *cell, const int32_t q[4])
 {
     int32_t corner[8][4], count = fibre->corners(cell, corner), before = 0, after = 0;
     int64_t most = 0;
     for (int32_t i = 0; i < count; i++) {
-        int64_t size = cage_turn(q, corner[i]), product = dot(q, corner[i]);
+        int64_t size = cage_turn(q, corner[i]), product = dot_of(q, corner[i]);
         before += product > 0;
         after += product < 0;
         most = size > most ? size : most;

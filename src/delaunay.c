@@ -358,8 +358,8 @@ static bool take_slots(struct cage_arena *arena, int32_t dim, const struct cage_
 }
 
 /* Insert sites from `first` on; the simplices, in slots, stay in the arena, what else was taken is given back. */
-static int32_t build(struct cage_arena *arena, struct cage_triangulation *t, const struct cage_simplex *from, int32_t simplices,
-                     int32_t first, size_t mark, bool dense)
+static int32_t complete(struct cage_arena *arena, struct cage_triangulation *t, const struct cage_simplex *from,
+                        int32_t simplices, int32_t first, size_t mark, bool dense)
 {
     struct build b;
     size_t kept = arena->used, peak = arena->peak, beside = bytes_beside(t->dim, t->sites);
@@ -403,7 +403,7 @@ int32_t cage_delaunay(struct cage_arena *arena, int32_t dim, const cage_ball *ba
     }
     struct cage_triangulation t = {site, input, NULL, dim, sites, 0};
     const struct cage_simplex first = {{0, 1, 2, dim == 2 ? 0 : 3}, {CAGE_HULL, CAGE_HULL, CAGE_HULL, CAGE_HULL}};
-    int32_t error = build(arena, &t, &first, 1, dim + 1, mark, true);
+    int32_t error = complete(arena, &t, &first, 1, dim + 1, mark, true);
     if (error == CAGE_OK)
         *out = t;
     return error;
@@ -420,7 +420,7 @@ int32_t cage_delaunay_extend(struct cage_arena *arena, const struct cage_triangu
     memcpy(made.site, t->site, (size_t)t->sites * sizeof *t->site);
     for (int32_t i = 0; i < count; i++)
         made.site[t->sites + i] = *more[i];
-    int32_t error = build(arena, &made, t->simplex, t->simplices, t->sites, mark, false);
+    int32_t error = complete(arena, &made, t->simplex, t->simplices, t->sites, mark, false);
     if (error == CAGE_OK)
         *out = made;
     return error;

@@ -5,17 +5,17 @@
 #include <string.h>
 
 /* After the five words of words.h: the plan (side, level, max_cells); the dimension; the numbers of the object's and the
- * obstacles' inner and outer balls; the balls (centre and radius each); how many cells were cut, and which, in their order. Then for
- * each side the slices of leaves: cell, components, words of the chart, the chart, for each component its extent and, of
- * an outer one, the inner component that holds it; 0 ends them. Then its gluings: two leaves, the number of pairs of components that
- * share a point, the pairs; 0 ends them. Cells have the numbers of the graph. */
+ * obstacles' inner and outer balls; the balls (centre and radius each); how many cells were cut, and which, in their order.
+ * Then for each side the slices of leaves: cell, components, words of the chart, the chart, for each component its extent
+ * and, of an outer one, the inner component that holds it; 0 ends them. Then its gluings: two leaves, the number of pairs of
+ * components that share a point, the pairs; 0 ends them. Cells have the numbers of the graph. */
 enum { MAGIC = 0x66676163, FORMAT = 1, PLAN = 5, DIM = 8, BALLS = 9, HEAD = 13, EXTENT = 11 };
 
 /* ---- writing -------------------------------------------------------------------------------------------- */
 
 static void put_number(struct cage_pen *pen, int32_t value) { cage_words_put(pen, (uint32_t)value); }
 
-static void put_balls(struct cage_pen *pen, const cage_ball *ball, int32_t count)
+static void put_sets(struct cage_pen *pen, const cage_ball *ball, int32_t count)
 {
     for (int32_t i = 0; i < count; i++) {
         put_number(pen, ball[i].x);
@@ -40,8 +40,8 @@ static void put_scene(struct cage_pen *pen, const cage_scene *scene, const cage_
         put_number(pen, shape[i]->outer_count);
     }
     for (int32_t i = 0; i < 2; i++) {
-        put_balls(pen, shape[i]->inner, shape[i]->inner_count);
-        put_balls(pen, shape[i]->outer, shape[i]->outer_count);
+        put_sets(pen, shape[i]->inner, shape[i]->inner_count);
+        put_sets(pen, shape[i]->outer, shape[i]->outer_count);
     }
 }
 
@@ -97,7 +97,7 @@ static bool is_glued(const struct cage_graph *graph, int32_t side, int32_t a, in
     return cage_graph_is_glued(&at->node[at->nodes - 1], b) && cage_graph_is_glued(&bt->node[bt->nodes - 1], a);
 }
 
-static void put_side(struct cage_pen *pen, const struct cage_survey *survey, int32_t side)
+static void put_side_facts(struct cage_pen *pen, const struct cage_survey *survey, int32_t side)
 {
     const struct cage_graph *graph = &survey->proof->graph;
     for (int32_t cell = -1; (cell = cage_graph_leaf(graph, cell)) >= 0;)
@@ -115,12 +115,12 @@ static void put_side(struct cage_pen *pen, const struct cage_survey *survey, int
     put_number(pen, 0);
 }
 
-static void put_all(struct cage_pen *pen, const struct cage_survey *survey)
+static void put_facts(struct cage_pen *pen, const struct cage_survey *survey)
 {
     put_scene(pen, &survey->proof->scene, &survey->plan);
     put_tree(pen, &survey->proof->graph);
     for (int32_t side = 0; side < CAGE_SIDES; side++)
-        put_side(pen, survey, side);
+        put_side_facts(pen, survey, side);
     cage_words_seal(pen);
 }
 
@@ -129,12 +129,12 @@ size_t cage_survey_facts(const cage_survey *survey, void *out, size_t bytes)
     struct cage_pen pen = {NULL, 0};
     if (!survey)
         return 0;
-    put_all(&pen, survey);
+    put_facts(&pen, survey);
     size_t size = 4 * (size_t)pen.words;
     if (!out || bytes < size)
         return size;
     pen.byte = out;
-    put_all(&pen, survey);
+    put_facts(&pen, survey);
     return size;
 }
 
@@ -207,8 +207,8 @@ static int32_t check_tree(struct reader *reader, const struct cage_graph *graph,
         return -1;
     for (int32_t i = 0; i < count; i++, cells += children) {
         int32_t cut = next_number(reader);
-        if (!is_within(reader, cut, CAGE_CELL_ROOT, cells - 1) || seen[cut].level < 0 || seen[cut].level >= graph->fibre->max_level ||
-            (cells < graph->cells && graph->cell[cells].parent != cut))
+        if (!is_within(reader, cut, CAGE_CELL_ROOT, cells - 1) || seen[cut].level < 0 ||
+            seen[cut].level >= graph->fibre->max_level || (cells < graph->cells && graph->cell[cells].parent != cut))
             return -1;
         for (int32_t k = 0; k < children; k++)
             seen[cells + k].level = seen[cut].level + 1;
@@ -222,8 +222,10 @@ static bool check_slices(struct reader *reader, const struct cage_survey *survey
     const struct cage_graph *graph = &survey->proof->graph;
     for (int32_t cell; (cell = next_number(reader)) != 0;) {
         int32_t nodes = next_number(reader), words = next_number(reader);
-        if (!is_within(reader, cell, CAGE_CELL_ROOT, cells - 1) || !is_within(reader, nodes, 1, (int32_t)(reader->words / EXTENT)) ||
-            !is_within(reader, words, CAGE_CHART_HEAD, (int32_t)reader->words) || seen[cell].level < 0 || seen[cell].nodes[side] > 0 ||
+        if (!is_within(reader, cell, CAGE_CELL_ROOT, cells - 1) ||
+            !is_within(reader, nodes, 1, (int32_t)(reader->words / EXTENT)) ||
+            !is_within(reader, words, CAGE_CHART_HEAD, (int32_t)reader->words) || seen[cell].level < 0 ||
+            seen[cell].nodes[side] > 0 ||
             (cell < graph->cells && survey->sheet[side][cell].chart.word && graph->cell[cell].facts[side].nodes != nodes))
             return false;
         seen[cell].nodes[side] = nodes;
@@ -254,7 +256,7 @@ static bool check_gluings(struct reader *reader, const struct seen *seen, int32_
 }
 
 /* All of it, before anything is changed. */
-static int32_t check(struct reader reader, struct cage_survey *survey)
+static int32_t check_all(struct reader reader, struct cage_survey *survey)
 {
     struct cage_arena *scratch = &survey->proof->scratch;
     size_t mark = scratch->used;
@@ -360,7 +362,7 @@ int32_t cage_survey_learn(cage_survey *survey, const void *bytes, size_t size)
         return CAGE_ERROR_ATLAS;
     const cage_scene *scene = &survey->proof->scene;
     struct reader reader = {bytes, (uint32_t)(size / 4), PLAN, true};
-    int32_t error = check(reader, survey);
+    int32_t error = check_all(reader, survey);
     if (error == CAGE_ERROR_ATLAS)
         return error;
     const uint64_t balls = (uint64_t)scene->object.inner_count + (uint64_t)scene->object.outer_count +

@@ -152,11 +152,22 @@ static bool joined(const struct cage_node *k, const struct cage_node *l)
     return edge != NULL;
 }
 
+/* Is there room for that many edges and records, and some? Nothing is taken. */
+static bool has_room(struct cage_arena *arena, size_t edges, size_t records)
+{
+    size_t mark = arena->used, peak = arena->peak;
+    bool room = cage_arena_take(arena, edges, 2 * sizeof(struct cage_edge) + CAGE_ALIGN) &&
+                cage_arena_take(arena, records, sizeof(struct cage_glued) + CAGE_ALIGN);
+    cage_arena_release(arena, mark);
+    arena->peak = peak;
+    return room;
+}
+
 int32_t cage_graph_add_gluing(struct cage_graph *graph, int32_t side, int32_t a, int32_t b, int32_t seed,
                               const struct cage_touch *touch, int32_t count)
 {
     struct cage_facts *at = &graph->cell[a].facts[side], *bt = &graph->cell[b].facts[side];
-    bool done = true;
+    bool done = has_room(graph->arena, (size_t)count, 2 * (size_t)count + (size_t)at->nodes + (size_t)bt->nodes);
     for (int32_t i = 0; i < count && done; i++) {
         struct cage_node *k = &at->node[touch[i].k], *l = &bt->node[touch[i].l];
         if (joined(k, l))

@@ -87,7 +87,7 @@ bool cage_graph_is_glued(const struct cage_node *node, int32_t with);
 /* Record a slice of so many components. */
 int32_t cage_graph_add_nodes(struct cage_graph *graph, int32_t side, int32_t cell, int32_t components);
 
-/* Record what gluing component `seed` of cell a (or CAGE_ALL) with cell b has found. */
+/* Record what gluing component `seed` of cell a (or CAGE_ALL) with cell b has found: all of it, or nothing for lack of memory. */
 int32_t cage_graph_add_gluing(struct cage_graph *graph, int32_t side, int32_t a, int32_t b, int32_t seed,
                               const struct cage_touch *touch, int32_t count);
 

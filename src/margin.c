@@ -86,7 +86,7 @@ static int64_t length_of(const cage_pose *from, const cage_pose *to)
 }
 
 /* How far the outer obstacles reach along an axis: from 0 to 2^29. */
-static int64_t extent(const cage_scene *scene)
+static int64_t obstacles_extent(const cage_scene *scene)
 {
     int64_t most = 0;
     for (int32_t j = 0; j < scene->obstacles.outer_count; j++) {
@@ -107,7 +107,7 @@ static void find_narrow(struct trial *trial, const cage_result *proof)
     enum { PARTS = 2048 };
     cage_margin *result = &trial->result;
     int32_t least = INT32_MAX;
-    const int64_t step = 1 + extent(trial->scene) / PARTS;
+    const int64_t step = 1 + obstacles_extent(trial->scene) / PARTS;
     for (int32_t n = 0; n < proof->path_count; n++) {
         const cage_pose *from = &proof->path[n], *to = n + 1 < proof->path_count ? from + 1 : from;
         int64_t length = length_of(from, to), part = 0;
@@ -210,7 +210,7 @@ static int32_t room_to_grow(const struct trial *trial)
 }
 
 /* Ask with larger and larger balls until it is closed, and leave the bounds between which that happens. */
-static int32_t grow(struct trial *trial, int32_t answer)
+static int32_t grow_all(struct trial *trial, int32_t answer)
 {
     const int32_t most = room_to_grow(trial);
     cage_margin *result = &trial->result;
@@ -249,7 +249,7 @@ int32_t cage_margin_find(const cage_scene *scene, const cage_pose *start, const 
         return answer;
     /* With no object ball left everything is open. Growing, the start itself collides in the end. */
     trial.result.open = answer == OPEN ? 0 : most;
-    answer = grow(&trial, answer);
+    answer = grow_all(&trial, answer);
     if (answer < 0)
         return answer;
     error = answer == CLOSED ? bisect(&trial, rounds) : CAGE_OK;

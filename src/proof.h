@@ -25,7 +25,8 @@ struct cage_proof {
     struct cage_arena scratch; /* empty between steps */
     struct cage_store store;
     bool all;                  /* nothing is asked: all cells are wanted, and there is no start */
-    size_t shared;             /* bytes that facts, store and scratch have together */
+    size_t shared;             /* bytes that facts, store and scratch have together, */
+    size_t fixed;              /* and those before them */
     struct cage_graph graph;
     struct cage_side side[CAGE_SIDES];
     struct cage_reach reach[CAGE_SIDES];
@@ -73,6 +74,10 @@ bool cage_proof_spares_outer(const struct cage_proof *proof);
 
 /* Add up the results of both searches. */
 void cage_proof_total(struct cage_proof *proof);
+
+/* After a step that failed for lack of memory: was it facts or path that found none, and did they get some of the store's, which
+ * is emptied? Then the step can be taken again: so far it has done nothing, but that the path may have become longer. */
+bool cage_proof_make_room(struct cage_proof *proof);
 
 /* The block to try next, after CAGE_ERROR_MEMORY. */
 uint64_t cage_proof_needed(const struct cage_proof *proof);

@@ -39,7 +39,7 @@ static void last_resort(struct cage_proof *proof, int32_t reason)
     cage_search_anew(proof, CAGE_OUTER);
 }
 
-static int32_t refine(struct cage_proof *proof)
+static int32_t step_refine(struct cage_proof *proof)
 {
     bool inner = proof->limits.side & CAGE_SIDE_INNER, outer = proof->limits.side & CAGE_SIDE_OUTER;
     bool guided = inner && (!proof->hopeless || proof->corridor > 0);
@@ -187,9 +187,8 @@ static int32_t step_shorten(struct cage_proof *proof)
     return cage_proof_finish(proof, proof->graph.goal ? CAGE_CONNECTED : CAGE_FREE, CAGE_REASON_PATH);
 }
 
-static int32_t step(struct cage_proof *proof)
+static int32_t step_phase(struct cage_proof *proof)
 {
-    proof->outer_steps += proof->phase == OUTER;
     switch (proof->phase) {
     case START:
         return step_start(proof);
@@ -198,7 +197,7 @@ static int32_t step(struct cage_proof *proof)
     case OUTER:
         return step_outer(proof);
     case REFINE:
-        return refine(proof);
+        return step_refine(proof);
     case PATH:
         return step_path(proof);
     default:
@@ -213,7 +212,15 @@ int32_t cage_proof_searching(const struct cage_proof *proof)
 
 int32_t cage_proof_step(struct cage_proof *proof)
 {
-    int32_t error = step(proof);
+    struct cage_node *leg = proof->leg;
+    int32_t error, path_count = proof->path_count;
+    proof->outer_steps += proof->phase == OUTER;
+    do {
+        proof->leg = leg;
+        proof->path_count = path_count;
+        proof->arena.needed = proof->scratch.needed = 0;
+        error = step_phase(proof);
+    } while (error == CAGE_ERROR_MEMORY && cage_proof_make_room(proof));
     proof->result.steps++;
     proof->error = error < 0 ? error : CAGE_OK;
     return proof->error;

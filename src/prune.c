@@ -91,7 +91,7 @@ static CAGE_INLINE bool all_set(const uint64_t *a, const uint64_t *b, struct spa
 }
 
 /* Sum up which blocks are covered. */
-static void sum_up(struct cage_raster *raster)
+static void add_up(struct cage_raster *raster)
 {
     for (int32_t z = 0; z < raster->size[2]; z++)
         for (int32_t b = 0; b < raster->block_rows; b++) {
@@ -133,7 +133,7 @@ struct stamp {
 };
 
 /* square < (PIXELS_2D / 2)^2; most balls of a slice share a few radii, so the last stamp often serves. */
-static void cut(struct stamp *stamp, int64_t square)
+static void cut_stamp(struct stamp *stamp, int64_t square)
 {
     if (stamp->square == square)
         return;
@@ -160,7 +160,7 @@ static void mark(struct cage_raster *raster, int32_t dim, const cage_ball *ball,
         int64_t left = dim == 3 ? square - (int64_t)(k + 1) * (k + 1) : square;
         if (left < 2)
             return;
-        cut(stamp, left);
+        cut_stamp(stamp, left);
         for (int32_t z = at[2] - k; z <= at[2] + k; z += k ? 2 * k : 1) {
             uint64_t *up = row_of(raster, at[1], z), *down = up;
             for (int32_t j = 1; j < stamp->rows && stamp->width[j] > 0; j++, up -= raster->row, down += raster->row) {
@@ -178,7 +178,7 @@ static void mark_every(struct cage_raster *raster, int32_t dim, const cage_ball 
     for (int32_t i = first; i < count; i += pace)
         if (!blocks_cover(raster, dim, &ball[i]))
             mark(raster, dim, &ball[i], stamp);
-    sum_up(raster);
+    add_up(raster);
 }
 
 /* It cannot meet pixel (i, j, k) if (|i|-1)^2 + (|j|-1)^2 + (|k|-1)^2 > r^2 / width^2, negative terms taken as 0. */
@@ -191,7 +191,7 @@ static bool keeps(const struct cage_raster *raster, int32_t dim, const cage_ball
         int64_t deep = k > 0 ? k - 1 : 0;
         if (deep * deep > square)
             break;
-        cut(stamp, square - deep * deep);
+        cut_stamp(stamp, square - deep * deep);
         for (int32_t z = at[2] - k; z <= at[2] + k; z += k ? 2 * k : 1) {
             const uint64_t *up = row_of(raster, at[1], z), *down = up;
             for (int32_t j = 0; j <= stamp->rows; j++, up -= raster->row, down += raster->row) {

@@ -13,7 +13,8 @@ static int32_t component_at(const cage_atlas *atlas, uint32_t chart, const int32
 {
     const uint32_t dim = (uint32_t)atlas->dim;
     for (uint32_t k = 0; k < dim; k++)
-        if (p[k] < cage_read_number(atlas, chart + CAGE_CHART_LOW + k) || p[k] > cage_read_number(atlas, chart + CAGE_CHART_HIGH + k))
+        if (p[k] < cage_read_number(atlas, chart + CAGE_CHART_LOW + k) ||
+            p[k] > cage_read_number(atlas, chart + CAGE_CHART_HIGH + k))
             return CAGE_OUTSIDE;
     uint32_t entry = cage_read_word(atlas, chart + CAGE_CHART_ROOT);
     for (uint32_t bits = cage_read_word(atlas, chart + CAGE_CHART_BITS) & 31; (entry & 3) == CAGE_CHART_SPLIT && bits > 0;) {
@@ -83,8 +84,11 @@ static int32_t next_leaf(const cage_atlas *atlas, struct descent *at, const int3
 /* The class of the pivot's place on a side: on the inner side covered if it is over any cell, on the outer if over all. */
 static int32_t class_at(const cage_atlas *atlas, const int32_t q[4], const int32_t at[3], int32_t side)
 {
-    struct descent descent = {{0, 0, {0, 0, 0}}, {cage_read_word(atlas, CAGE_ATLAS_CELL)}, {0}, 0};
+    const struct cage_cell none = {-1, 0, {0, 0, 0}};
+    struct descent descent;
     int32_t class = CAGE_NO_CLASS, leaf;
+    descent.depth = -1;
+    descend(&descent, &none, cage_read_word(atlas, CAGE_ATLAS_CELL));
     while ((leaf = next_leaf(atlas, &descent, q)) >= 0) {
         uint32_t entry = cage_read_side(atlas, side, CAGE_SIDE_LEAF) + 2 * (uint32_t)leaf;
         int32_t component = component_at(atlas, cage_read_word(atlas, entry), at);
@@ -121,7 +125,7 @@ static uint32_t first_from(const cage_atlas *atlas, int64_t x)
 static bool ball_collides(const cage_atlas *atlas, const cage_pose *pose, const cage_ball *y, const int64_t at[3])
 {
     uint32_t size = (uint32_t)atlas->dim + 1, obstacles = cage_read_word(atlas, CAGE_ATLAS_OBSTACLE + 1);
-    int64_t far = (int64_t)y->r + cage_read_length(atlas, CAGE_ATLAS_LARGEST) + 1; /* on no axis are those that overlap farther apart */
+    int64_t far = (int64_t)y->r + cage_read_length(atlas, CAGE_ATLAS_LARGEST) + 1; /* no farther apart on an axis */
     uint32_t from = first_from(atlas, at[0] - far), place = cage_read_word(atlas, CAGE_ATLAS_OBSTACLE) + size * from;
     for (uint32_t j = from; j < obstacles && cage_read_number(atlas, place) <= at[0] + far; j++, place += size) {
         int64_t aside = cage_read_number(atlas, place + 1) - at[1];

@@ -12,8 +12,8 @@ int32_t cage_read_length(const cage_atlas *atlas, uint32_t at)
 cage_ball cage_read_ball(const cage_atlas *atlas, uint32_t at)
 {
     const uint32_t dim = (uint32_t)atlas->dim;
-    const cage_ball ball = {cage_read_length(atlas, at), cage_read_length(atlas, at + 1), dim == 3 ? cage_read_length(atlas, at + 2) : 0,
-                            cage_read_length(atlas, at + dim)};
+    const cage_ball ball = {cage_read_length(atlas, at), cage_read_length(atlas, at + 1),
+                            dim == 3 ? cage_read_length(atlas, at + 2) : 0, cage_read_length(atlas, at + dim)};
     return ball;
 }
 
@@ -76,7 +76,8 @@ static bool side_is_sound(const cage_atlas *atlas, int32_t side)
     for (uint32_t i = 0; i < edges && sound; i++)
         sound = cage_read_word(atlas, to + i) < nodes;
     for (uint32_t i = 0; i < leaves && sound; i++)
-        sound = fits(atlas, cage_read_word(atlas, leaf + 2 * i), CAGE_CHART_HEAD, 1) && cage_read_word(atlas, leaf + 2 * i + 1) < nodes;
+        sound = fits(atlas, cage_read_word(atlas, leaf + 2 * i), CAGE_CHART_HEAD, 1) &&
+                cage_read_word(atlas, leaf + 2 * i + 1) < nodes;
     return sound;
 }
 

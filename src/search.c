@@ -15,7 +15,7 @@ int32_t cage_search_make(const struct cage_proof *proof, struct cage_arena *aren
     return cage_slice_make_within(arena, &proof->side[side], &leaf->rotations, within ? &corners : NULL, slice);
 }
 
-static int32_t make(struct cage_proof *proof, int32_t side, int32_t cell, struct cage_slice *slice)
+static int32_t take_or_make(struct cage_proof *proof, int32_t side, int32_t cell, struct cage_slice *slice)
 {
     const struct cage_unit *unit = proof->ahead ? cage_ahead_find(proof->ahead, proof, side, cell, -1, 0, &proof->scratch) : NULL;
     proof->taken = unit;
@@ -25,7 +25,7 @@ static int32_t make(struct cage_proof *proof, int32_t side, int32_t cell, struct
     return CAGE_OK;
 }
 
-static int32_t put(struct cage_proof *proof, int32_t side, int32_t cell, const struct cage_slice *slice)
+static int32_t hold(struct cage_proof *proof, int32_t side, int32_t cell, const struct cage_slice *slice)
 {
     if (cage_store_put(&proof->store, slice, &proof->graph.cell[cell].facts[side].held))
         return CAGE_OK;
@@ -50,22 +50,24 @@ static int32_t place_inside(struct cage_proof *proof, const struct cage_slice *o
     return error;
 }
 
-static int32_t build(struct cage_proof *proof, int32_t side, int32_t cell, struct cage_held **held)
+static int32_t build_slice(struct cage_proof *proof, int32_t side, int32_t cell, struct cage_held **held)
 {
     struct cage_slice slice;
     size_t mark = proof->scratch.used;
     struct cage_facts *facts = &proof->graph.cell[cell].facts[side];
-    int32_t error = make(proof, side, cell, &slice);
+    int32_t error = take_or_make(proof, side, cell, &slice);
     if (error == CAGE_OK && facts->nodes == 0) {
         error = cage_graph_add_nodes(&proof->graph, side, cell, slice.regions);
-        proof->result.slices[side]++;
-        proof->result.balls[side] += slice.balls;
-        proof->result.inserted[side] += slice.t.sites - slice.t.dim - 1;
+        if (error == CAGE_OK) {
+            proof->result.slices[side]++;
+            proof->result.balls[side] += slice.balls;
+            proof->result.inserted[side] += slice.t.sites - slice.t.dim - 1;
+        }
         if (error == CAGE_OK && side == CAGE_OUTER)
             error = place_inside(proof, &slice, cell);
     }
     if (error == CAGE_OK)
-        error = put(proof, side, cell, &slice);
+        error = hold(proof, side, cell, &slice);
     cage_arena_release(&proof->scratch, mark);
     *held = facts->held;
     return error;
@@ -74,7 +76,7 @@ static int32_t build(struct cage_proof *proof, int32_t side, int32_t cell, struc
 int32_t cage_proof_slice(struct cage_proof *proof, int32_t side, int32_t cell, const struct cage_slice **slice)
 {
     struct cage_held *held = proof->graph.cell[cell].facts[side].held;
-    int32_t error = held ? CAGE_OK : build(proof, side, cell, &held);
+    int32_t error = held ? CAGE_OK : build_slice(proof, side, cell, &held);
     *slice = error == CAGE_OK ? &held->slice : NULL;
     return error;
 }
@@ -108,7 +110,7 @@ int32_t cage_proof_slices(struct cage_proof *proof, int32_t side, int32_t a, int
 }
 
 /* Glue the node's component, and those it is connected with, with cell b. */
-static int32_t glue(struct cage_proof *proof, int32_t side, const struct cage_node *node, int32_t b)
+static int32_t glue_node(struct cage_proof *proof, int32_t side, const struct cage_node *node, int32_t b)
 {
     int32_t a = node->cell;
     const struct cage_slice *c, *d;
@@ -126,13 +128,15 @@ static int32_t glue(struct cage_proof *proof, int32_t side, const struct cage_no
         count = keep_exact(c, d, touch, count);
     if (error == CAGE_OK)
         error = cage_graph_add_gluing(&proof->graph, side, a, b, node->component, touch, count);
-    proof->result.gluings[side]++;
-    proof->result.mixtures[side] += mixed;
+    if (error == CAGE_OK) {
+        proof->result.gluings[side]++;
+        proof->result.mixtures[side] += mixed;
+    }
     cage_arena_release(&proof->scratch, mark);
     return error;
 }
 
-static bool is_live(const struct cage_proof *proof, const struct cage_node *node)
+static bool node_is_live(const struct cage_proof *proof, const struct cage_node *node)
 {
     return proof->graph.cell[node->cell].child == 0;
 }
@@ -167,7 +171,7 @@ static void discover(struct cage_proof *proof, int32_t side, struct cage_node *n
                      struct cage_edge *via)
 {
     struct cage_reach *reach = &proof->reach[side];
-    if (node->seen == reach->number || !is_live(proof, node))
+    if (node->seen == reach->number || !node_is_live(proof, node))
         return;
     node->seen = reach->number;
     node->from = from;
@@ -324,7 +328,7 @@ int32_t cage_search(struct cage_proof *proof, int32_t side)
         const struct cage_slice *slice;
         if (proof->graph.cell[other].facts[side].nodes == 0)
             return cage_proof_slice(proof, side, other, &slice);
-        int32_t error = glue(proof, side, node, other);
+        int32_t error = glue_node(proof, side, node, other);
         reach->glued = error == CAGE_OK ? other : reach->glued;
         follow_again(proof, side, node->cell);
         follow_again(proof, side, other);

@@ -3,7 +3,7 @@
 #include "proof.h"
 
 /* A turn that needs more pieces than this is not worth the time. */
-enum { PIECES = 64 };
+enum { SHORTEN_PIECES = 64 };
 
 /* Can one slide and one turn lead from a to b? *corner: the pose between them. */
 static bool passes(const struct cage_proof *proof, const cage_pose *a, const cage_pose *b, cage_pose *corner)
@@ -13,7 +13,7 @@ static bool passes(const struct cage_proof *proof, const cage_pose *a, const cag
         for (int32_t k = 0; k < 3; k++)
             corner->x[k] = turn_first ? a->x[k] : b->x[k];
         if (cage_certify_leg(&proof->scene, proof->result.pivot, corner->q, a->x, b->x, 0) &&
-            cage_certify_turn(&proof->scene, proof->result.pivot, corner->x, a->q, b->q, PIECES))
+            cage_certify_turn(&proof->scene, proof->result.pivot, corner->x, a->q, b->q, SHORTEN_PIECES))
             return true;
     }
     return false;

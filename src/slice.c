@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-static void place(const struct cage_side *side, const struct cage_rotations *rotations, const struct cage_corners *corners,
+static void place_parts(const struct cage_side *side, const struct cage_rotations *rotations, const struct cage_corners *corners,
                   struct cage_part *part)
 {
     struct cage_rotation rotation;
@@ -155,7 +155,7 @@ static int32_t make(struct cage_arena *arena, const struct cage_side *side, cons
     int32_t *of = cage_arena_take(arena, pairs, sizeof *of);
     if (!out->part || !ball || !of)
         return CAGE_ERROR_MEMORY;
-    place(side, rotations, corners, out->part);
+    place_parts(side, rotations, corners, out->part);
     int32_t count = collide(side, out->part, ball, of);
     struct cage_raster raster;
     int32_t error = cage_raster_make(arena, side->dim, ball, count, &raster);

@@ -377,8 +377,9 @@ static bool look_at(struct cage_survey *survey, int32_t cell, int32_t side)
 static void look_ahead(struct cage_survey *survey, const cage_workers *workers)
 {
     cage_ahead_tidy(survey->proof->ahead, workers);
+    const struct cage_graph *graph = &survey->proof->graph;
     bool more = true;
-    for (int32_t cell = survey->cell; more && cell >= 0 && cell != survey->beyond; cell = cage_graph_leaf(&survey->proof->graph, cell))
+    for (int32_t cell = survey->cell; more && cell >= 0 && cell != survey->beyond; cell = cage_graph_leaf(graph, cell))
         for (int32_t side = 0; more && side < CAGE_SIDES; side++)
             more = !is_wanted(survey, side) || look_at(survey, cell, side);
     cage_ahead_do(survey->proof->ahead, workers);

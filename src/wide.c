@@ -1,25 +1,25 @@
 /* wide: 128- and 256-bit signed integers, without needing a 128-bit compiler type. */
 #include "wide.h"
 
+/* The quotient's bits come in from below as those of a that are not in the rest yet go out above. */
 cage_i128 cage_u128_divide_by_bits(cage_i128 a, cage_i128 b, cage_i128 *remainder)
 {
-    uint64_t high = 0, low = 0;
-    uint32_t of_a = cage_u128_bits(a), of_b = cage_u128_bits(b), bit = of_a < of_b ? 0 : of_a - of_b + 1;
-    cage_i128 rest = bit > 127 ? cage_i128_of(0) : cage_i128_shr(a, bit); /* < b < 2^127, so that doubling it cannot overflow */
-    while (bit-- > 0) {
-        uint64_t next = bit >= 64 ? cage_i128_high(a) >> (bit - 64) : cage_i128_low(a) >> bit;
-        rest = cage_i128_add(cage_i128_shl(rest, 1), cage_i128_of((int64_t)(next & 1)));
+    uint32_t of_a = cage_u128_bits(a), of_b = cage_u128_bits(b), bits = of_a < of_b ? 0 : of_a - of_b + 1;
+    cage_i128 rest = bits > 127 ? cage_i128_of(0) : cage_i128_shr(a, bits); /* < b < 2^127, so that doubling it cannot overflow */
+    cage_i128 quotient = bits == 0 ? cage_i128_of(0) : cage_i128_shl(a, 128 - bits);
+    while (bits-- > 0) {
+        uint64_t next = cage_i128_high(quotient) >> 63;
+        rest = cage_i128_add(rest, rest);
+        rest = cage_i128_make(cage_i128_high(rest), cage_i128_low(rest) | next);
+        quotient = cage_i128_add(quotient, quotient);
         cage_i128 less = cage_i128_sub(rest, b);
         if (!cage_i128_negative(less)) {
             rest = less;
-            if (bit >= 64)
-                high |= (uint64_t)1 << (bit - 64);
-            else
-                low |= (uint64_t)1 << bit;
+            quotient = cage_i128_make(cage_i128_high(quotient), cage_i128_low(quotient) | 1);
         }
     }
     *remainder = rest;
-    return cage_i128_make(high, low);
+    return quotient;
 }
 
 int64_t cage_i128_nearest(cage_i128 a, cage_i128 b, int64_t limit)

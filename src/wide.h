@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
 #define CAGE_INLINE inline __attribute__((always_inline))
 #else
 #define CAGE_INLINE inline

@@ -101,47 +101,17 @@ fi
 
 # ---- who calls whom --------------------------------------------------------------------------------------
 
-# flags and a suffix: the files calls.SUFFIX ("caller callee") and frames.SUFFIX ("function bytes kind"). A call
-# through a pointer may go to any function of a file that has functions in a table (tables of jumps look alike: none).
-call_graph() {
-    mkdir -p "$folder/graph"
-    rm -f "$folder"/graph/*
-    for file in src/*.c; do
-        name=$(basename "$file" .c)
-        gcc -std=c99 -ffreestanding $1 -fno-jump-tables -Iinclude -fcallgraph-info=su -c "$file" -o "$folder/graph/$name.o" 2>/dev/null || return 1
-        if objdump -r "$folder/graph/$name.o" | awk '/RECORDS FOR/ { data = /\.(data|rodata)/ } data && $3 ~ /^\.text/ { found = 1 } END { exit !found }'; then
-            sed -n 's/^node: { title: "\([^"]*\)".* bytes (.*/__indirect_call \1/p' "$folder/graph/$name.ci"
-        fi
-        sed -n 's/^edge: { sourcename: "\([^"]*\)" targetname: "\([^"]*\)".*/\1 \2/p' "$folder/graph/$name.ci"
-    done | sed 's|src/||g' | sort -u >"$folder/calls.$2"
-    cat "$folder"/graph/*.ci | sed -n 's/^node: { title: "\([^"]*\)".*\\n\([0-9]*\) bytes (\([^)]*\)).*/\1 \2 \3/p' |
-        sed 's|src/||g' | sort -u >"$folder/frames.$2"
-    [ -s "$folder/calls.$2" ]
-}
+. tests/calls.sh
 
-if have gcc && have objdump && call_graph -O0 plain; then
-    awk '$1 == $2 { print $1, "calls itself" }' "$folder/calls.plain" >"$folder/loops"
-    tsort "$folder/calls.plain" 2>&1 >"$folder/order" | sed -n 's/^tsort: //p' | grep -v 'input contains a loop' >>"$folder/loops"
+if have gcc && have objdump && call_graph "$folder/plain" '' -O0; then
+    awk '$1 == $2 { print $1, "calls itself" }' "$folder/plain/calls" >"$folder/loops"
+    tsort "$folder/plain/calls" 2>&1 >"$folder/order" | sed -n 's/^tsort: //p' | grep -v 'input contains a loop' >>"$folder/loops"
     empty "no recursion" "$folder/loops"
-    call_graph -O2 fast
-    awk '$3 == "dynamic" { print $1, $3 }' "$folder/frames.fast" >"$folder/dynamic"
+    call_graph "$folder/fast" '' -O2
+    awk '$3 == "dynamic" { print $1, $3 }' "$folder/fast/frames" >"$folder/dynamic"
     empty "no array of variable length: every frame is of known size" "$folder/dynamic"
-    sort -k2,2nr "$folder/frames.fast" | head -n 1 | awk '{ printf "      largest frame: %s bytes, %s\n", $2, $1 }'
-    # Longest paths by repeated relaxation; recursion was looked for above, and a call to itself counts once more.
-    awk 'FILENAME ~ /frames/ { frame[$1] = deepest[$1] = $2; functions++; next }
-         $1 == $2 { frame[$1] += frame[$1]; deepest[$1] = frame[$1]; next }
-                  { from[n] = $1; to[n++] = $2 }
-         END { for (round = 0; round < functions && (changed || round == 0); round++) {
-                   changed = 0
-                   for (i = 0; i < n; i++)
-                       if (frame[from[i]] + deepest[to[i]] > deepest[from[i]]) {
-                           deepest[from[i]] = frame[from[i]] + deepest[to[i]]; next_of[from[i]] = to[i]; changed = 1
-                       }
-               }
-               for (f in deepest) if (deepest[f] > worst) { worst = deepest[f]; at = f }
-               printf "      deepest stack with -O2: %d bytes, by", worst
-               for (steps = 0; at != "" && steps < 40; steps++) { printf " %s", at; at = next_of[at] }
-               print "" }' "$folder/frames.fast" "$folder/calls.fast"
+    sort -k2,2nr "$folder/fast/frames" | head -n 1 | awk '{ printf "      largest frame: %s bytes, %s\n", $2, $1 }'
+    deepest "$folder/fast" | sed 's/^\([0-9]*\)/      deepest stack with -O2: \1 bytes,/'
 else
     echo "      no gcc 10 with objdump here: recursion and stack not looked at"
 fi

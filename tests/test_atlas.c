@@ -928,7 +928,8 @@ START_TEST(size_is_enough)
     }
     for (int32_t objects = 0; objects <= 2; objects++)
         for (int32_t dim = 2; dim <= 3; dim++) {
-            const cage_scene view = {{ball, ball, objects / 2, (objects + 1) / 2}, {ball, ball, MANY, objects == 1 ? 5 : MANY}, dim};
+            const cage_scene view = {{ball, ball, objects / 2, (objects + 1) / 2}, {ball, ball, MANY, objects == 1 ? 5 : MANY},
+                                     dim};
             cage_plan plan;
             cage_survey *survey;
             cage_plan_default(&plan);
@@ -1094,8 +1095,8 @@ static void ask_anything(const cage_atlas *atlas, uint64_t *state)
             int32_t error = cage_atlas_class(atlas, side, i, &c);
             test_require(error == CAGE_OK || error == CAGE_ERROR_ARGUMENT);
             int32_t cell = (int32_t)test_between(state, 0, atlas->leaves), q[4], corner[8][4];
-            int64_t seen = 0, told = cage_atlas_boxes(atlas, side, cell, i, (int32_t)test_between(state, 0, 4), see, &seen);
-            test_require(told == seen || told == CAGE_ERROR_ARGUMENT || told == CAGE_ERROR_ATLAS);
+            int64_t met = 0, told = cage_atlas_boxes(atlas, side, cell, i, (int32_t)test_between(state, 0, 4), see, &met);
+            test_require(told == met || told == CAGE_ERROR_ARGUMENT || told == CAGE_ERROR_ATLAS);
             (void)cage_atlas_cell(atlas, cell, q, corner);
         }
 }

@@ -1,4 +1,5 @@
-/* test_boxes.c: the boxes of a class against its points one by one, and the range of its rotations against poses located in it. */
+/* test_boxes.c: the boxes of a class against its points one by one, and the range of its rotations against poses located in
+ * it. */
 #include "support.h"
 
 #include <math.h>
@@ -71,8 +72,8 @@ static void count(void *context, const cage_atlas_box *box)
                 (box->whole ? c->whole : c->part)[place(c, p)]++;
 }
 
-/* Two balls opposite each other, so that the pivot is the origin, among balls on a circle (in space: at the corners and faces of a
- * cube) and some within. */
+/* Two balls opposite each other, so that the pivot is the origin, among balls on a circle (in space: at the corners and faces
+ * of a cube) and some within. */
 static void draw(uint64_t *state, int32_t dim, cage_ball object[2], cage_ball obstacle[24], int32_t *obstacles)
 {
     int32_t size = dim == 2 ? 50 : 14;
@@ -102,8 +103,8 @@ static void draw(uint64_t *state, int32_t dim, cage_ball object[2], cage_ball ob
     }
 }
 
-/* Every point of the grid in each cell of an atlas: in whole boxes of its class alone, in those of others never. With all halvings
- * boxes tell the class exactly. */
+/* Every point of the grid in each cell of an atlas: in whole boxes of its class alone, in those of others never. With all
+ * halvings boxes tell the class exactly. */
 static void compare(const cage_atlas *atlas, int32_t side, int32_t cell, int32_t halvings, struct counts *c)
 {
     int32_t classes = atlas->classes[side == CAGE_SIDE_OUTER], corner[8][4];
@@ -202,8 +203,8 @@ static void rotations_of(const cage_scene *view, const cage_atlas *atlas, uint64
     }
 }
 
-/* A class of one cell has the range of its cell: the middle is a rotation of the cell, no corner is farther than it says, and one
- * is as far. */
+/* A class of one cell has the range of its cell: the middle is a rotation of the cell, no corner is farther than it says, and
+ * one is as far. */
 static void ranges_are_tight(const cage_atlas *atlas, int64_t *seen)
 {
     for (int32_t side = CAGE_SIDE_INNER; side <= CAGE_SIDE_OUTER; side++)

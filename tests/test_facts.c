@@ -1,4 +1,5 @@
-/* test_facts.c: surveys that are interrupted, moved, put together from parts or told nonsense end in the same atlas, or refuse. */
+/* test_facts.c: surveys that are interrupted, moved, put together from parts or told nonsense end in the same atlas, or
+ * refuse. */
 #include "support.h"
 
 #include <stdlib.h>
@@ -91,7 +92,7 @@ static void draw(uint64_t seed, struct drawn *out)
 /* So many steps, then on with nothing but the facts, in a block that was overwritten and is of another size. */
 START_TEST(interrupted)
 {
-    int32_t scenes = test_scenes(36), cut = 0;
+    int32_t scenes = test_rounds(36), cut = 0;
     for (int32_t i = 0; i < scenes; i++) {
         struct drawn d;
         uint64_t state = (uint64_t)i + 1;
@@ -129,7 +130,7 @@ END_TEST
 START_TEST(in_parts)
 {
     enum { MOST = 7 };
-    for (int32_t i = 0; i < test_scenes(24); i++) {
+    for (int32_t i = 0; i < test_rounds(24); i++) {
         struct drawn d;
         struct bytes part[MOST];
         uint64_t state = (uint64_t)i + 77;
@@ -290,7 +291,7 @@ END_TEST
 START_TEST(small_blocks)
 {
     enum { CANARY = 64 };
-    for (int32_t i = 0; i < test_scenes(12); i++) {
+    for (int32_t i = 0; i < test_rounds(12); i++) {
         struct drawn d;
         struct bytes facts = {NULL, 0};
         int64_t all;

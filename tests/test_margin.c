@@ -72,7 +72,8 @@ START_TEST(four_fingers)
         expect_change(&m, away, 50000);
         ck_assert(m.known == 1 && m.pivot[0] == 0 && m.pivot[1] == 0);
         double dx = m.narrow.x[0] - 1234 * i, dy = m.narrow.x[1], far = dx * dx + dy * dy; /* between two fingers */
-        ck_assert_msg(far > 0.16 * away * away && far < 1.2 * away * away, "%g, %g for %d (%d to %d)", dx, dy, (int)away, (int)m.closed, (int)m.open);
+        ck_assert_msg(far > 0.16 * away * away && far < 1.2 * away * away, "%g, %g for %d (%d to %d)", dx, dy,
+                      (int)away, (int)m.closed, (int)m.open);
     }
 }
 END_TEST

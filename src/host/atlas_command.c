@@ -12,7 +12,8 @@
 #define HALVINGS_3D 4
 
 typedef struct options {
-    const char *object, *obstacles, *output, *header, *side, *level, *budget, *memory, *unit, *passages, *threads, *volumes, *svg, *ply;
+    const char *object, *obstacles, *output, *header, *side, *level, *budget, *memory, *unit, *passages, *threads;
+    const char *volumes, *svg, *ply;
     int json, quiet;
 } options;
 
@@ -39,8 +40,8 @@ void host_atlas_help(FILE *out)
         "  --memory BYTES    one block of this size and no more; K, M and G mean 1024, 1024^2, 1024^3\n"
         "  --threads N       work on so many cores (default: all, with --memory one); the atlas is the same\n"
         "  --unit U          length of a grid unit (default: the finest power of two at which the scene fits)\n"
-        "  --volumes N       the bounds of volumes from boxes down to 1/2^N of the scene (0 to 20, default %d in the plane, %d in\n"
-        "                    space): the volume of a class is that of its translations, averaged over all rotations\n"
+        "  --volumes N       the bounds of volumes from boxes down to 1/2^N of the class (0 to 20, default %d, in space %d):\n"
+        "                    the volume of a class is that of its translations, averaged over all rotations\n"
         "  --svg DIR         a picture of each large bounded class, as DIR/inner-N.svg and DIR/outer-N.svg\n"
         "  --ply DIR         in space: the same as meshes (ASCII PLY)\n"
         "  --passages N      for each large bounded outer class: by how much every radius must shrink for it to open into\n"
@@ -103,7 +104,8 @@ static int read_plan(const options *given, int32_t dim, double unit, cage_plan *
     for (level = 0; level < plan->level; level++)
         least += cells *= children; /* < 2^25 */
     if (code == HOST_OK && plan->max_cells > 0 && plan->max_cells < least)
-        return host_fail(error, HOST_BAD_INPUT, "--budget: down to level %ld there are %ld cells", (long)plan->level, (long)least);
+        return host_fail(error, HOST_BAD_INPUT, "--budget: down to level %ld there are %ld cells", (long)plan->level,
+                         (long)least);
     return code;
 }
 
@@ -189,7 +191,8 @@ static int run(const options *given, host_query *query, host_grid *grid, host_bu
     if (code == HOST_OK)
         code = host_check_apart("--c-header", given->header, given->obstacles, error);
     if (code == HOST_OK)
-        code = host_build_atlas(&grid->scene, &plan, given->memory != NULL ? &bytes : NULL, given->output, given->quiet, made, error);
+        code = host_build_atlas(&grid->scene, &plan, given->memory != NULL ? &bytes : NULL, given->output, given->quiet, made,
+                                error);
     if (code == HOST_OK)
         code = host_write_whole(given->output, made->bytes, (size_t)made->work.atlas_bytes, error);
     if (code == HOST_OK)

@@ -56,8 +56,8 @@ void host_report_atlas(FILE *out, const char *path, const host_built *made, doub
                        const host_passages *passages);
 void host_report_atlas_json(FILE *out, const host_built *made, double unit, int32_t halvings, const host_passages *passages);
 
-/* Between all pairs of the largest bounded outer classes, and from each to the outside, by proofs of their own, in a block of that
- * size if bytes is not null. */
+/* Between all pairs of the largest bounded outer classes, and from each to the outside, by proofs of their own, in a block of
+ * that size if bytes is not null. */
 int host_find_passages(const cage_scene *scene, const host_built *made, double unit, int32_t rounds, const size_t *bytes,
                        host_passages *out, host_error *error);
 

@@ -203,7 +203,8 @@ static void json_passages(FILE *out, const host_passages *passages, const cage_a
         const cage_margin *margin = &passage->margin;
         host_pose narrow;
 
-        (void)fprintf(out, "%s\n    {\"from\": %ld, \"to\": %ld, \"closed\": ", i > 0 ? "," : "", (long)passage->from, (long)passage->to);
+        (void)fprintf(out, "%s\n    {\"from\": %ld, \"to\": %ld, \"closed\": ", i > 0 ? "," : "", (long)passage->from,
+                      (long)passage->to);
         (void)fprintf(out, margin->bounded ? "%.17g" : "null", margin->closed * unit);
         (void)fprintf(out, ", \"open\": %.17g, \"narrow\": ", margin->open * unit);
         if (margin->known)

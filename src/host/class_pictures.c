@@ -30,7 +30,8 @@ static void mark(void *context, const cage_atlas_box *box)
     for (at[2] = from[2]; at[2] <= to[2]; at[2]++)
         for (at[1] = from[1]; at[1] <= to[1]; at[1]++)
             for (at[0] = from[0]; at[0] <= to[0]; at[0]++)
-                cloud->mask[((size_t)at[2] * (size_t)cloud->count[1] + (size_t)at[1]) * (size_t)cloud->count[0] + (size_t)at[0]] = 1;
+                cloud->mask[((size_t)at[2] * (size_t)cloud->count[1] + (size_t)at[1]) * (size_t)cloud->count[0] +
+                            (size_t)at[0]] = 1;
 }
 
 /* Where the pivot can be, at any rotation; the caller frees the mask. 0, or -1 without memory. */
@@ -89,8 +90,8 @@ static int draw(const char *svg, const char *ply, const host_query *query, const
     memset(&result, 0, sizeof result);
     (void)snprintf(name, sizeof name, "%s-%ld", side == CAGE_SIDE_INNER ? "inner" : "outer", (long)row->number);
     (void)snprintf(heading, sizeof heading, "%s class %ld", side == CAGE_SIDE_INNER ? "Inner" : "Outer", (long)row->number);
-    (void)snprintf(title, sizeof title, "%s, %ld of %ld cells", side == CAGE_SIDE_INNER ? "no path leaves it" : "paths join all of it",
-                   (long)class->cells, (long)made->atlas.leaves);
+    (void)snprintf(title, sizeof title, "%s, %ld of %ld cells",
+                   side == CAGE_SIDE_INNER ? "no path leaves it" : "paths join all of it", (long)class->cells, (long)made->atlas.leaves);
     memcpy(result.pivot, made->atlas.pivot, sizeof result.pivot);
     result.verdict = CAGE_CAGED;
     host_from_grid(&class->pose, result.pivot, query->dim, grid->unit, &at.start);

@@ -111,7 +111,8 @@ int host_check_writable(const char *option, const char *path, host_error *error)
         errno = EISDIR;
     else
         fine = access(path, W_OK) == 0;
-    return fine ? HOST_OK : host_fail(error, HOST_BAD_INPUT, "%s: %.600s cannot be written: %.200s", option, path, strerror(errno));
+    return fine ? HOST_OK
+                : host_fail(error, HOST_BAD_INPUT, "%s: %.600s cannot be written: %.200s", option, path, strerror(errno));
 }
 
 int host_check_apart(const char *option, const char *path, const char *other, host_error *error)

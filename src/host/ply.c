@@ -247,7 +247,8 @@ static void write_mesh(FILE *out, const mesh *made, const sphere *ball, const ho
     int k;
 
     (void)fprintf(out, "ply\nformat ascii 1.0\ncomment %s: obstacles grey, object at the start blue%s\n",
-                  answer->name != NULL ? answer->name : cage_verdict_text(answer->result->verdict), answer->query->has_goal ? ", at the goal orange" : "");
+                  answer->name != NULL ? answer->name : cage_verdict_text(answer->result->verdict),
+                  answer->query->has_goal ? ", at the goal orange" : "");
     (void)fprintf(out, "element vertex %ld\nproperty float x\nproperty float y\nproperty float z\n"
                        "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n",
                   (long)made->balls * ball->vertices + (long)made->cubes * 8);

@@ -92,7 +92,8 @@ static void write_head(FILE *out, const host_answer *answer, double height)
                   MARGIN, name, meaning);
     (void)fprintf(out, "<text x=\"%.0f\" y=\"50\" font-size=\"12\" fill=\"#66707c\">", MARGIN);
     (void)fprintf(out, "%ld object balls, %ld obstacle balls; %s %.6g,%.6g", (long)answer->query->object.count,
-                  (long)answer->query->obstacles.count, answer->name != NULL ? "the object at" : "start", start->x[0], start->x[1]);
+                  (long)answer->query->obstacles.count, answer->name != NULL ? "the object at" : "start",
+                  start->x[0], start->x[1]);
     if (start->dim == 2)
         (void)fprintf(out, ",%.6g", start->degrees);
     else

@@ -298,7 +298,8 @@ static void write_legend(FILE *out, const host_answer *answer, double x, double 
     x = svg_legend(out, x, y, "<circle cx=\"9\" r=\"7\" fill=\"none\" stroke=\"#5b646f\" stroke-opacity=\"0.5\"/>",
                    answer->name != NULL ? "nearer than the object" : "nearer than the start");
     x = svg_legend(out, x, y, "<circle cx=\"9\" r=\"7\" fill=\"#6ea2ea\" stroke=\"#1f57b0\"/>"
-                              "<circle cx=\"9\" r=\"2.5\" fill=\"#1c2733\"/>", answer->name != NULL ? "a pose of it, and the pivot" : "start and pivot");
+                              "<circle cx=\"9\" r=\"2.5\" fill=\"#1c2733\"/>",
+                   answer->name != NULL ? "a pose of it, and the pivot" : "start and pivot");
     if (answer->query->has_goal)
         x = svg_legend(out, x, y, "<circle cx=\"9\" r=\"7\" fill=\"#f7b267\" stroke=\"#c25e10\"/>", "goal");
     if (answer->cloud != NULL)

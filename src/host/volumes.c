@@ -38,8 +38,8 @@ static void arc_share(const int32_t corner[8][4], double share[2])
     share[0] = share[1] = atan2(fabs(cross), fabs(dot)) / acos(-1.0);
 }
 
-/* In space: projected to the face of the cube of quaternions that it is on, where one entry is 1, the cell is a box; the share has
- * there the density (1 + |u|^2)^-2 / pi^2. Bounded piece by piece. */
+/* In space: projected to the face of the cube of quaternions that it is on, where one entry is 1, the cell is a box; the
+ * share has there the density (1 + |u|^2)^-2 / pi^2. Bounded piece by piece. */
 static void box_share(const int32_t q[4], const int32_t corner[8][4], double share[2])
 {
     double from[3], step[3];

@@ -1,0 +1,190 @@
+"""python -m libcage OBJECT OBSTACLES --start POSE: one question from files of meshes or balls."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import __version__, formats, poses
+from .balls import KINDS, Solid, solid
+from .errors import CageError, InputError
+from .scene import Scene
+
+MESHES = {".stl", ".obj", ".ply", ".off", ".glb", ".3mf"}
+
+
+def parser() -> argparse.ArgumentParser:
+    """The options."""
+    made = argparse.ArgumentParser(
+        prog="python -m libcage",
+        description="Prove that an object is caged, or that no path joins two "
+        "poses, or find the path. A file is a closed mesh (STL, OBJ, PLY, OFF, ...), for which "
+        "balls are made, or balls (xyzr, npy, json, yml, urdf, srdf, sph). Metres and radians.",
+    )
+    made.add_argument("object", help="the object's file, in its own frame")
+    made.add_argument(
+        "obstacles", nargs="+", help="the obstacles' files, in the world; of one kind"
+    )
+    made.add_argument(
+        "--start",
+        required=True,
+        metavar="POSE",
+        help="x,y,theta in the plane; in space x,y,z or x,y,z,qw,qx,qy,qz",
+    )
+    made.add_argument("--goal", metavar="POSE", help="without it: can the object leave?")
+    made.add_argument(
+        "--scale",
+        type=float,
+        default=1.0,
+        help="metres in a unit of length of meshes: "
+        "0.001 for millimetres. Files of balls are taken as they are",
+    )
+    made.add_argument("--balls", type=int, default=100, help="inner balls for a mesh, at most")
+    made.add_argument(
+        "--outer-tolerance",
+        type=float,
+        metavar="M",
+        help="how far outer balls may reach beyond a mesh (default: a twentieth of its size)",
+    )
+    made.add_argument("--kind", choices=KINDS, help="what the balls in files are of the solid")
+    made.add_argument("--link", help="the link to take of the object's file, where it has several")
+    made.add_argument(
+        "--insist", action="store_true", help="ask about balls that prove nothing of a solid"
+    )
+    made.add_argument("--side", choices=("both", "inner", "outer"), default="both")
+    made.add_argument("--max-cells", type=int)
+    made.add_argument("--max-level", type=int)
+    made.add_argument("--threads", type=int)
+    made.add_argument(
+        "--margin", type=int, metavar="N", help="find the margin too, by N bisections"
+    )
+    made.add_argument("--html", metavar="FILE", help="write an interactive picture")
+    made.add_argument("--png", metavar="FILE", help="in the plane: write a picture")
+    made.add_argument("--json", action="store_true", help="print one JSON object")
+    made.add_argument("--quiet", action="store_true", help="print the verdict only, no progress")
+    made.add_argument("--version", action="version", version=f"libcage {__version__}")
+    return made
+
+
+def read_solid(path: str, given: argparse.Namespace, link: str | None = None) -> tuple[Solid, str]:
+    """The solid in a file, and what was made of it, in words."""
+    place = Path(path)
+    if place.suffix.lower() not in MESHES:
+        balls = formats.read(place, given.kind, link)
+        return solid(balls), f"{path}: {balls}"
+    import trimesh
+
+    from .shapes import fit
+
+    mesh: Any = trimesh.load_mesh(place)
+    mesh.apply_scale(given.scale)
+    made = fit(mesh, given.balls, outer_tolerance=given.outer_tolerance)
+    return made.solid(), f"{path}: {made}"
+
+
+def join(solids: list[Solid]) -> Solid:
+    """The union of several solids, of the same kinds."""
+    from .balls import Balls
+
+    def side(parts: list[Any]) -> Any:
+        if any(part is None for part in parts):
+            return None
+        kinds = {part.kind for part in parts}
+        if len(kinds) > 1:
+            raise InputError(f"obstacles of several kinds: {', '.join(sorted(kinds))}; say --kind")
+        return Balls(np.concatenate([part.rows for part in parts]), kinds.pop())
+
+    if len({one.dim for one in solids}) > 1:
+        raise InputError("the obstacles are of different dimensions")
+    if len(solids) == 1:
+        return solids[0]
+    if all(one.inner is one.outer for one in solids):
+        both = side([one.inner for one in solids])
+        return Solid(both, both)
+    return Solid(side([one.inner for one in solids]), side([one.outer for one in solids]))
+
+
+def read_pose(text: str, dim: int) -> Any:
+    """A pose from the command line."""
+    try:
+        values = [float(word) for word in text.split(",")]
+    except ValueError:
+        raise InputError(f"{text!r} is no pose") from None
+    if dim == 2 and len(values) == 3:
+        return tuple(values)
+    if dim == 3 and len(values) in (3, 7):
+        return poses.from_wxyz(values[:3], values[3:] or [1, 0, 0, 0])
+    raise InputError(
+        f"{text!r} is no pose: x,y,theta in the plane; x,y,z or x,y,z,qw,qx,qy,qz in space"
+    )
+
+
+def run(given: argparse.Namespace) -> None:
+    """Everything after the options."""
+    part, said = read_solid(given.object, given, given.link)
+    others = [read_solid(path, given) for path in given.obstacles]
+    if not given.quiet:
+        print("\n".join([said, *(words for _, words in others)]), file=sys.stderr)
+    scene = Scene(part, join([made for made, _ in others]))
+    start = read_pose(given.start, scene.dim)
+    goal = None if given.goal is None else read_pose(given.goal, scene.dim)
+    limits = {"max_cells": given.max_cells, "max_level": given.max_level, "insist": given.insist}
+    answer = scene.prove(
+        start,
+        goal,
+        side=given.side,
+        threads=given.threads,
+        progress=not given.quiet and sys.stderr.isatty(),
+        **limits,
+    )
+    margin = None
+    if given.margin is not None:
+        margin = scene.margin(start, goal, rounds=given.margin, **limits)
+    if given.json:
+        raw = answer.to_dict()
+        if margin is not None:
+            raw["margin"] = {"closed": margin.closed, "open": margin.open}
+        print(json.dumps(raw))
+    elif given.quiet:
+        print(answer.verdict)
+    else:
+        print(answer)
+        print(f"start as proved: {answer.start}")
+        if margin is not None:
+            print(f"margin: {margin}")
+    if given.html:
+        from . import view
+
+        view.write_html(given.html, scene, answer)
+    if given.png:
+        from matplotlib import pyplot
+
+        from . import plot
+
+        figure, axes = pyplot.subplots()
+        plot.result(scene, answer, ax=axes)
+        figure.savefig(given.png, dpi=150)
+        pyplot.close(figure)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Exit status 0 for any verdict, 2 for bad input, 130 for Ctrl-C."""
+    given = parser().parse_args(arguments)
+    try:
+        run(given)
+    except (CageError, OSError, ImportError) as error:
+        print(f"libcage: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("libcage: stopped", file=sys.stderr)
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
