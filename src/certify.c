@@ -216,8 +216,8 @@ static bool piece_clear(const cage_scene *scene, const int32_t pivot[3], const s
         const cage_ball *y = &scene->object.outer[i];
         int64_t at[3], end[3], arm = 0;
         cage_i128 square = cage_i128_of(0);
-        place(from->q, y, pivot, at);
-        place(to->q, y, pivot, end);
+        place_ball(from->q, y, pivot, at);
+        place_ball(to->q, y, pivot, end);
         for (int32_t k = 0; k < 3; k++) {
             square = cage_i128_add(square, cage_i128_mul(end[k] - at[k], end[k] - at[k]));
             arm += at[k] < 0 ? -at[k] : at[k];
