@@ -213,10 +213,11 @@ typedef struct cage_step {
 } cage_step;
 
 /* After UNDEFINED, with the inner side: a way that the inner slices leave open (which a proof would have to close), as the
- * sequence of (component, slice) pairs and as a decomposable path of the pivot, like cage_result.path. A CANDIDATE: balls made smaller
- * can go it (each by how far it moves within the cells), the object itself may collide on it, and cage_path_check tells.
- * count: {steps, poses}; what there is no room for is not written. 1: found; 0: there is none; or an error. It may
- * build slices, and cage_prove_region is to be called before, not after. */
+ * sequence of (component, slice) pairs and as a decomposable path of the pivot, like cage_result.path. A CANDIDATE: balls made
+ * smaller can go it (each by how far it moves within the cells), the object itself may collide on it, and cage_path_check tells.
+ * count: {steps, poses} there are; what there is no room for is not written. 1: found; 0: there is none, or the answer was another;
+ * CAGE_ERROR_ARGUMENT also before the proof has ended; after CAGE_ERROR_MEMORY needed_bytes says what block to try the proof in,
+ * and what was written is no candidate. Builds slices again. It changes no other answer: result and region stay as they were. */
 int32_t cage_prove_candidate(cage_proof *proof, cage_step *step, int32_t steps, cage_pose *path, int32_t poses,
                              int32_t count[2]);
 
@@ -407,6 +408,7 @@ int64_t cage_atlas_boxes(const cage_atlas *atlas, int32_t side, int32_t cell, in
 #define CAGE_STRUCT_ATLAS 10
 #define CAGE_STRUCT_CLASS 11
 #define CAGE_STRUCT_BOX 12
+#define CAGE_STRUCT_STEP 13
 int32_t cage_abi(void);
 size_t cage_struct_size(int32_t which);
 

@@ -140,7 +140,7 @@ static void moves(int32_t dim)
     }
     printf("note: moves in %d dimensions: %d accepted, %d refused, %d of those accepted refused when obstructed\n", (int)dim,
            accepted, refused, near_miss);
-    ck_assert(accepted > n / 10 && refused > n / 10 && near_miss > n / 40);
+    ck_assert(accepted > n / 20 && refused > n / 20 && near_miss > n / 40);
 }
 
 START_TEST(moves_in_the_plane) { moves(2); }
