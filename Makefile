@@ -114,7 +114,7 @@ build/soak_atlas: tests/soak_atlas.c $(HELPERS) $(HEADERS) build/sanitized/libhe
 # Paths made smooth: a program with the command's own files beside its main, and what the command says.
 PATHS_O = $(filter-out build/host/main.o,$(HOST_O))
 build/check_paths: tests/paths/paths.c tests/random.c $(PATHS_O) build/libcage.a build/extras
-	$(CC) -std=c99 -D_XOPEN_SOURCE=700 $(CFLAGS) -Wall -Wextra -Wshadow -iquote src/host -Iinclude tests/paths/paths.c tests/random.c \
+	$(CC) -std=c99 -D_XOPEN_SOURCE=700 $(CFLAGS) -Wall -Wextra -Wshadow -iquote src/host -iquote src -Iinclude tests/paths/paths.c tests/random.c \
 	  $(PATHS_O) build/libcage.a $(EXTRA_L) -lm -pthread -o $@
 
 check-paths: ## smooth paths, candidates: install what they need (when it may), build and judge them

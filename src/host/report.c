@@ -150,8 +150,8 @@ static void print_way(FILE *out, const host_answer *answer)
     const double unit = answer->grid->unit;
 
     if (way->smooth)
-        (void)fprintf(out, "        smoothed: length %.6g instead of %.6g, and proved with the curve through the poses, which is off\n"
-                           "        the straight legs between them by %.2g at most\n",
+        (void)fprintf(out, "        smoothed: length %.6g instead of %.6g, and proved with the curve through the poses, which is\n"
+                           "        off the straight legs between them by %.2g at most\n",
                       way->length * unit, way->found_length * unit, way->deviation * unit);
     else
         (void)fprintf(out, "        not smoothed: no shorter path was certified; length %.6g\n", way->length * unit);
@@ -163,8 +163,8 @@ static void print_candidate(FILE *out, const host_answer *answer)
     host_pose at;
     int32_t i;
 
-    (void)fprintf(out, "Candidate  not proved: a way of %ld cells and %ld poses that balls made smaller can go; on it the object\n"
-                       "        %s\n",
+    (void)fprintf(out, "Candidate  not proved: a way of %ld cells and %ld poses that balls made smaller can go; on it the\n"
+                       "        object %s\n",
                   (long)c->steps, (long)c->count, c->places == 0 ? "was not seen to collide" : "collides:");
     for (i = 0; i < c->places; i++) {
         host_from_grid(&c->place[i].at, answer->result->pivot, answer->query->dim, answer->grid->unit, &at);
@@ -347,8 +347,8 @@ void host_report_json(FILE *out, const host_answer *answer)
     if (answer->margin != NULL)
         json_margin(out, answer);
     if (answer->way != NULL)
-        (void)fprintf(out, "  \"smooth\": %s,\n  \"length\": %.17g,\n  \"found_length\": %.17g,\n", answer->way->smooth ? "true" : "false",
-                      answer->way->length * answer->grid->unit, answer->way->found_length * answer->grid->unit);
+        (void)fprintf(out, "  \"smooth\": %s,\n  \"length\": %.17g,\n  \"found_length\": %.17g,\n",
+                      answer->way->smooth ? "true" : "false", answer->way->length * answer->grid->unit, answer->way->found_length * answer->grid->unit);
     if (answer->candidate != NULL)
         json_candidate(out, answer);
     (void)fprintf(out, "  \"path\": ");

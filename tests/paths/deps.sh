@@ -2,8 +2,8 @@
 # What check-paths needs besides the tests' own: install it when that is allowed, else say what to install.
 missing=
 need() { # HEADER PACKAGE
-    printf '#include <%s>\nint main(void) { return 0; }\n' "$1" | cc -I/usr/include/suitesparse -x c -fsyntax-only - 2> /dev/null ||
-        missing="$missing $2"
+    printf '#include <%s>\nint main(void) { return 0; }\n' "$1" |
+        cc -I/usr/include/suitesparse -x c -fsyntax-only - 2> /dev/null || missing="$missing $2"
 }
 need cholmod.h libsuitesparse-dev
 need ccd/ccd.h libccd-dev

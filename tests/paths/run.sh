@@ -55,7 +55,8 @@ candidate() {
         python3 -c 'import json, sys
 a = json.load(open(sys.argv[1]))
 c = a["candidate"]
-sys.exit(not (a["verdict"] == "UNDEFINED" and a["path"] == [] and len(c["steps"]) > 1 and len(c["path"]) > 1 and c["collisions"]))' \
+sys.exit(not (a["verdict"] == "UNDEFINED" and a["path"] == [] and len(c["steps"]) > 1 and len(c["path"]) > 1
+              and c["collisions"]))' \
             "$folder/json"
 }
 check "it is shown, with where it collides" candidate
