@@ -5,8 +5,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "parts.h"
 #include "picture.h"
-#include "smooth.h"
 #include "threads.h"
 
 #define STEPS_A_TURN 32         /* between two looks at the clock */
@@ -16,7 +16,7 @@
 
 typedef struct options {
     const char *object, *obstacles, *start, *goal, *svg, *ply;
-    const char *side, *max_level, *max_cells, *memory, *unit, *threads, *margin, *path;
+    const char *side, *max_level, *max_cells, *memory, *unit, *threads, *margin, *path, *parts;
     int json, quiet, smooth, candidate;
 } options;
 
@@ -48,6 +48,11 @@ void host_prove_help(FILE *out)
         "  space or commas; # starts a comment. POSE is x,y,degrees in the plane (counter-clockwise) or\n"
         "  x,y,z,qw,qx,qy,qz in space (a quaternion of any length): the object's point p goes to R p plus\n"
         "  (x,y) or (x,y,z). Balls may touch.\n"
+        "\n"
+        "  --parts FILE has one convex part a line: object or obstacle, a shape, and where it is in the object's frame\n"
+        "  or in the world, if not at the origin: \"obstacle box 20 10 @ 5,0,30\". In the plane: box WIDTH HEIGHT, disc\n"
+        "  RADIUS, capsule RADIUS LENGTH (straight, along x), hull X Y X Y X Y ...; in space: box X Y Z, cylinder RADIUS\n"
+        "  LENGTH and capsule RADIUS LENGTH (along z), hull X Y Z ... All are about their middle, but hulls.\n"
         "\n");
     (void)fprintf(out,
         "options:\n"
@@ -68,6 +73,9 @@ void host_prove_help(FILE *out)
         "                  An answer UNDEFINED becomes FREE or CONNECTED if a candidate can be smoothed so\n"
         "  --candidate     when it is UNDEFINED show a way that was not closed: its cells, its path, where it collides\n"
         "  --path FILE     write the path as CSV: the time from 0 to 1, the object's pose like POSE, where its pivot is\n"
+        "  --parts FILE    look with the true shapes at the path, or at the candidate that is shown: do they collide anywhere\n"
+        "                  on it? And do the balls lie inside them, and cover them? A check by samples, never part of a proof\n"
+        "                  (needs libccd: cage --help says whether it is there)\n"
         "  --unit U        length of a grid unit (default: the finest power of two at which the scene\n"
         "                  fits). Balls between grid points are rounded to the safe side\n"
         "  --json          print one JSON object instead of text\n"
@@ -110,6 +118,7 @@ static int read_options(int argc, char **argv, options *given, host_error *error
         { "--memory", &given->memory, NULL },       { "--unit", &given->unit, NULL },
         { "--ply", &given->ply, NULL },             { "--threads", &given->threads, NULL },
         { "--margin", &given->margin, NULL },       { "--path", &given->path, NULL },
+        { "--parts", &given->parts, NULL },
         { "--smooth", NULL, &given->smooth },       { "--candidate", NULL, &given->candidate },
         { "--json", NULL, &given->json },           { "--quiet", NULL, &given->quiet },
     };
@@ -323,7 +332,15 @@ static int write_path(const char *file, const host_answer *answer, host_error *e
     return host_write_way(file, answer, answer->way != NULL ? answer->way : &way, error);
 }
 
-static int show_answer(const options *given, host_answer *answer, host_candidate *candidate, host_way *way, host_error *error)
+/* What show_answer makes, and run frees. */
+typedef struct findings {
+    host_way way;
+    host_candidate candidate;
+    host_parts parts;
+    parts_check check;
+} findings;
+
+static int show_answer(const options *given, host_answer *answer, findings *found, host_error *error)
 {
     cage_margin margin;
     cage_result smoothed;
@@ -331,12 +348,15 @@ static int show_answer(const options *given, host_answer *answer, host_candidate
     int code = check_path(answer, error);
 
     if (code == HOST_OK && (given->smooth || given->candidate))
-        code = find_candidate(given, answer, candidate, error);
+        code = find_candidate(given, answer, &found->candidate, error);
     if (code == HOST_OK && given->smooth)
-        code = smooth_path(answer, candidate, &smoothed, way, error);
+        code = smooth_path(answer, &found->candidate, &smoothed, &found->way, error);
     if (code == HOST_OK && given->path != NULL)
         code = write_path(given->path, answer, error);
-
+    if (code == HOST_OK && given->parts != NULL) {
+        code = host_check_parts(answer, &found->parts, &found->check, error);
+        answer->parts = &found->check;
+    }
     if (code == HOST_OK && given->margin != NULL)
         code = host_blame(error, "--margin", host_parse_integer(given->margin, 0, 64, &rounds, error));
     if (code == HOST_OK && given->margin != NULL)
@@ -359,8 +379,7 @@ static int show_answer(const options *given, host_answer *answer, host_candidate
 static int run(const options *given, host_query *query, host_grid *grid, void **block, host_error *error)
 {
     host_answer answer;
-    host_way way;
-    host_candidate candidate;
+    findings found;
     cage_limits limits;
     job todo;
     double unit = 0;
@@ -391,13 +410,18 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
         code = read_limits(given, query->dim, &limits, error);
     if (code == HOST_OK)
         code = host_to_grid(query, unit, grid, error);
+    if (code == HOST_OK && given->parts != NULL && !host_parts_available())
+        code = host_fail(error, HOST_BAD_INPUT, "--parts: this build is without libccd (see the README)");
     if (code != HOST_OK)
         return code;
+    memset(&found, 0, sizeof found);
+    if (given->parts != NULL && (code = host_read_parts(given->parts, query->dim, &found.parts, error)) != HOST_OK) {
+        host_free_parts(&found.parts);
+        return code;
+    }
     if (!given->quiet)
         host_warn_empty(given->object, given->obstacles, query);
     memset(&answer, 0, sizeof answer);
-    memset(&way, 0, sizeof way);
-    memset(&candidate, 0, sizeof candidate);
     answer.query = query;
     answer.grid = grid;
     answer.limits = &limits;
@@ -407,9 +431,11 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
     code = host_in_block(cage_prove_size(&grid->scene, &limits), given->memory != NULL ? &bytes : NULL, attempt, &todo, block,
                          "query", error);
     if (code == HOST_OK)
-        code = show_answer(given, &answer, &candidate, &way, error);
-    host_free_way(&way);
-    host_free_candidate(&candidate);
+        code = show_answer(given, &answer, &found, error);
+    host_free_way(&found.way);
+    host_free_candidate(&found.candidate);
+    host_free_parts(&found.parts);
+    host_free_check(&found.check);
     return code;
 }
 

@@ -1,7 +1,7 @@
 /* report.c: an answer as sentences, and as one JSON object. */
 #include <math.h>
 
-#include "smooth.h"
+#include "parts.h"
 
 /* ---- text ---------------------------------------------------------------------------------------- */
 
@@ -150,8 +150,8 @@ static void print_way(FILE *out, const host_answer *answer)
     const double unit = answer->grid->unit;
 
     if (way->smooth)
-        (void)fprintf(out, "        smoothed: length %.6g instead of %.6g, and proved with the curve through the poses, which is\n"
-                           "        off the straight legs between them by %.2g at most\n",
+        (void)fprintf(out, "        smoothed: length %.6g instead of %.6g, and proved with the curve through the poses,\n"
+                           "        which is off the straight legs between them by %.2g at most\n",
                       way->length * unit, way->found_length * unit, way->deviation * unit);
     else
         (void)fprintf(out, "        not smoothed: no shorter path was certified; length %.6g\n", way->length * unit);
@@ -174,6 +174,42 @@ static void print_candidate(FILE *out, const host_answer *answer)
     }
 }
 
+static void print_cover(FILE *out, const char *whose, const parts_cover *cover)
+{
+    (void)fprintf(out, "        %s: %ld of %ld balls lie inside its parts", whose, (long)(cover->balls - cover->out),
+                  (long)cover->balls);
+    if (cover->out > 0)
+        (void)fprintf(out, " (ball %ld does not)", (long)cover->first + 1);
+    (void)fprintf(out, "; of %ld points of its parts %ld are in no ball\n", cover->points, cover->bare);
+}
+
+static void print_parts(FILE *out, const host_answer *answer)
+{
+    const parts_check *check = answer->parts;
+    host_pose at;
+    int32_t i;
+
+    (void)fprintf(out, "Parts   a check with the true shapes, by samples (%s): no proof\n", host_parts_name());
+    if (check->kind != 0 && check->places == 0)
+        (void)fprintf(out, "        %s: %ld poses looked at, apart by %.3g or more at each, and nothing skipped between%s\n",
+                      check->kind == 1 ? "path" : "candidate", check->poses, check->least,
+                      check->whole ? "" : "; NOT to its end");
+    else if (check->kind != 0)
+        (void)fprintf(out, "        %s: %ld poses looked at%s:\n", check->kind == 1 ? "path" : "candidate", check->poses,
+                      check->whole ? "" : ", NOT to its end");
+    for (i = 0; i < check->places; i++) {
+        host_from_grid(&check->place[i].at, answer->result->pivot, answer->query->dim, answer->grid->unit, &at);
+        if (check->place[i].overlaps)
+            (void)fprintf(out, "        overlap by %.3g at ", check->place[i].depth);
+        else
+            (void)fprintf(out, "        closer than %.3g at ", check->finest);
+        host_print_pose(out, &at);
+        (void)fprintf(out, ", after pose %ld\n", (long)check->place[i].leg + 1);
+    }
+    print_cover(out, "object", &check->cover[0]);
+    print_cover(out, "obstacles", &check->cover[1]);
+}
+
 void host_report_text(FILE *out, const host_answer *answer)
 {
     const cage_result *result = answer->result;
@@ -193,6 +229,8 @@ void host_report_text(FILE *out, const host_answer *answer)
         print_way(out, answer);
     if (answer->candidate != NULL)
         print_candidate(out, answer);
+    if (answer->parts != NULL)
+        print_parts(out, answer);
     if (answer->margin != NULL)
         print_margin(out, answer);
     print_unit(out, answer->grid);
@@ -317,6 +355,36 @@ static void json_candidate(FILE *out, const host_answer *answer)
     (void)fprintf(out, "},\n");
 }
 
+/* Places: [pose, depth], the depth null where they are too close to tell. Object and obstacles: [balls, of these outside, points,
+ * of these in no ball]. */
+static void json_parts(FILE *out, const host_answer *answer)
+{
+    static const char *const kinds[] = { "null", "\"path\"", "\"candidate\"" };
+    const parts_check *check = answer->parts;
+    int32_t i;
+    int side;
+
+    (void)fprintf(out, "  \"parts\": {\n  \"proof\": false,\n  \"by\": \"%s\",\n  \"of\": %s,\n", host_parts_name(),
+                  kinds[check->kind]);
+    (void)fprintf(out, "  \"clear\": %s,\n", check->kind == 0 ? "null" : check->whole && check->places == 0 ? "true" : "false");
+    (void)fprintf(out, "  \"poses\": %ld,\n  \"least\": %.17g,\n  \"places\": [", check->poses, check->least);
+    for (i = 0; i < check->places; i++) {
+        host_pose at;
+
+        host_from_grid(&check->place[i].at, answer->result->pivot, answer->query->dim, answer->grid->unit, &at);
+        (void)fprintf(out, "%s\n    [", i > 0 ? "," : "");
+        json_pose(out, &at);
+        if (check->place[i].overlaps)
+            (void)fprintf(out, ", %.17g]", check->place[i].depth);
+        else
+            (void)fprintf(out, ", null]");
+    }
+    (void)fprintf(out, "],\n");
+    for (side = 0; side < 2; side++)
+        (void)fprintf(out, "  \"%s\": [%ld, %ld, %ld, %ld]%s\n", side == 0 ? "object" : "obstacles",
+                      (long)check->cover[side].balls, (long)check->cover[side].out, check->cover[side].points, check->cover[side].bare, side == 0 ? "," : "},");
+}
+
 void host_report_json(FILE *out, const host_answer *answer)
 {
     const cage_result *result = answer->result;
@@ -348,9 +416,12 @@ void host_report_json(FILE *out, const host_answer *answer)
         json_margin(out, answer);
     if (answer->way != NULL)
         (void)fprintf(out, "  \"smooth\": %s,\n  \"length\": %.17g,\n  \"found_length\": %.17g,\n",
-                      answer->way->smooth ? "true" : "false", answer->way->length * answer->grid->unit, answer->way->found_length * answer->grid->unit);
+                      answer->way->smooth ? "true" : "false", answer->way->length * answer->grid->unit,
+                      answer->way->found_length * answer->grid->unit);
     if (answer->candidate != NULL)
         json_candidate(out, answer);
+    if (answer->parts != NULL)
+        json_parts(out, answer);
     (void)fprintf(out, "  \"path\": ");
     json_poses(out, result->path, result->path_count, answer);
     (void)fprintf(out, "\n}\n");

@@ -72,6 +72,12 @@ int way_leg(const host_answer *answer, const cage_pose *from, const cage_pose *t
 /* A station as a pose on the grid. */
 void way_pose(const way_station *at, int32_t dim, cage_pose *pose);
 
+/* Where the object is a part t of the way from row i to the next: on the curve of way_certify, or on a straight leg. */
+void way_at(const cage_pose *row, int32_t rows, int curve, int32_t i, double t, way_station *out);
+
+/* For each unit of t no point of the object within that radius of its pivot moves farther than this. */
+double way_rate(const cage_pose *row, int32_t rows, int curve, int32_t i, double radius);
+
 /* CSV: t from 0 to 1, the object's pose, and where its pivot is. */
 int host_write_way(const char *path, const host_answer *answer, const host_way *way, host_error *error);
 

@@ -218,6 +218,44 @@ static double deviation_of(const cage_pose *row, int32_t rows)
     return most;
 }
 
+void way_at(const cage_pose *row, int32_t rows, int curve, int32_t i, double t, way_station *out)
+{
+    const double u = 1 - t;
+    way_station a, b;
+    int k;
+
+    way_station_of(&row[i], &a);
+    way_station_of(&row[i + 1], &b);
+    way_between(&a, &b, t, out);
+    for (k = 0; curve && k < 3; k++) {
+        const double leg = b.x[k] - a.x[k];
+
+        out->x[k] += t * u * (u * (row_slope(row, rows, i, k) / 2 - leg) - t * (row_slope(row, rows, i + 1, k) / 2 - leg));
+    }
+}
+
+/* The cubic with slopes m and n at the ends of the leg d has as its velocity the quadratic Bezier curve of m, 3 d - m - n and n,
+ * which is in their hull: no longer than the longest of them. The turn goes at a constant rate. */
+double way_rate(const cage_pose *row, int32_t rows, int curve, int32_t i, double radius)
+{
+    double leg = 0, first = 0, middle = 0, last = 0, turn[3];
+    way_station a, b;
+    int k;
+
+    way_station_of(&row[i], &a);
+    way_station_of(&row[i + 1], &b);
+    way_turn(a.q, b.q, turn);
+    for (k = 0; k < 3; k++) {
+        const double d = b.x[k] - a.x[k], m = row_slope(row, rows, i, k) / 2, n = row_slope(row, rows, i + 1, k) / 2;
+
+        leg = hypot(leg, d);
+        first = hypot(first, m);
+        middle = hypot(middle, 3 * d - m - n);
+        last = hypot(last, n);
+    }
+    return (curve ? fmax(fmax(first, middle), last) : leg) + radius * hypot(hypot(turn[0], turn[1]), turn[2]);
+}
+
 /* A pose of the user's whose pivot is at that pose of the pivot. */
 static void to_user(const cage_pose *pose, const int32_t pivot[3], cage_pose *user)
 {

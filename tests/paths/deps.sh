@@ -3,9 +3,10 @@
 missing=
 need() { # HEADER PACKAGE
     printf '#include <%s>\nint main(void) { return 0; }\n' "$1" |
-        cc -I/usr/include/suitesparse -x c -fsyntax-only - 2> /dev/null || missing="$missing $2"
+        cc -I/usr/include/suitesparse -x c -fsyntax-only - 2> /dev/null || case $missing in *" $2"*) ;; *) missing="$missing $2" ;; esac
 }
 need cholmod.h libsuitesparse-dev
+need btf.h libsuitesparse-dev
 need ccd/ccd.h libccd-dev
 command -v valgrind > /dev/null 2>&1 || missing="$missing valgrind"
 [ -z "$missing" ] && exit 0
