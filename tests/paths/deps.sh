@@ -3,7 +3,8 @@
 missing=
 need() { # HEADER PACKAGE
     printf '#include <%s>\nint main(void) { return 0; }\n' "$1" |
-        cc -I/usr/include/suitesparse -x c -fsyntax-only - 2> /dev/null || case $missing in *" $2"*) ;; *) missing="$missing $2" ;; esac
+        cc -I/usr/include/suitesparse -x c -fsyntax-only - 2> /dev/null && return
+    case $missing in *" $2"*) ;; *) missing="$missing $2" ;; esac
 }
 need cholmod.h libsuitesparse-dev
 need btf.h libsuitesparse-dev

@@ -347,8 +347,8 @@ static void run(const known *scene, const char *examples, void *block, size_t by
             sum->found += straight ? 0 : found;
             expect(gap > -1e-3L, scene->name, "the judge finds a collision");
             expect(turn < 30, scene->name, "it has a corner");
-            printf("      %-22s %3d raw poses, %3d rows, length %.3f of raw, %.3f of shortened, gap %.3Lg units, turns %.1f degrees "
-                   "a row; %.1f + %.1f s\n", scene->name, (int)raw.count, (int)way.count, ratio, found, gap, turn, proved,
+            printf("      %-22s %3d raw poses, %3d rows, length %.3f of raw, %.3f of shortened, gap %.3Lg units, turns %.1f "
+                   "degrees a row; %.1f + %.1f s\n", scene->name, (int)raw.count, (int)way.count, ratio, found, gap, turn, proved,
                    host_now() - before - proved);
             mutate(scene->name, &answer, &way, rng);
         }
