@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_solve_banded, cholesky_banded
-from scipy.spatial.transform import Rotation, Slerp
 
 from . import _native
 from .errors import CageError, InputError
@@ -36,20 +35,65 @@ WORTHWHILE, ROUNDING = 1e-4, 1e-6  # parts of a length
 
 
 class Stations(NamedTuple):
-    """Where the pivot is (grid units), and the rotations."""
+    """Where the pivot is (grid units), and unit quaternions w, x, y, z."""
 
     x: Floats
-    turn: Rotation
+    q: Floats
 
 
-def _rotations(rows: Ints) -> Rotation:
-    return Rotation.from_quat(rows[:, [4, 5, 6, 3]].astype(float))
+def _stations(rows: Ints) -> Stations:
+    q = rows[:, 3:].astype(float)
+    return Stations(rows[:, :3].astype(float), q / np.linalg.norm(q, axis=1, keepdims=True))
+
+
+# ---- rotations, many at once: scipy's take longer than all the rest of a step ---------------------
+
+
+def _cross(a: Floats, b: Floats) -> Floats:
+    ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
+    bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
+    out = np.empty(np.broadcast(a, b).shape)
+    out[..., 0] = ay * bz - az * by
+    out[..., 1] = az * bx - ax * bz
+    out[..., 2] = ax * by - ay * bx
+    return out
+
+
+def _apply(q: Floats, v: Floats) -> Floats:
+    """v turned by q."""
+    u = q[..., 1:]
+    twice = 2 * _cross(u, v)
+    return np.asarray(v + q[..., :1] * twice + _cross(u, twice))
+
+
+def _turns(a: Floats, b: Floats) -> Floats:
+    """The turns from a to b the shorter way, as vectors of the world's frame."""
+    w = (a * b).sum(axis=-1)
+    v = a[..., :1] * b[..., 1:] - b[..., :1] * a[..., 1:] - _cross(b[..., 1:], a[..., 1:])
+    sine = np.sqrt((v**2).sum(axis=-1))
+    factor = np.where(sine < 1e-12, 2.0, 2 * np.arctan2(sine, abs(w)) / np.maximum(sine, 1e-300))
+    return np.asarray(np.where(w < 0, -factor, factor)[..., None] * v)
+
+
+def _turned(turn: Floats, q: Floats) -> Floats:
+    """q turned by vectors of the world's frame."""
+    angle = np.sqrt((turn**2).sum(axis=-1, keepdims=True))
+    v = np.where(angle < 1e-12, 0.5, np.sin(angle / 2) / np.maximum(angle, 1e-300)) * turn
+    w = np.cos(angle / 2)
+    scalar = w * q[..., :1] - (v * q[..., 1:]).sum(axis=-1, keepdims=True)
+    out = np.concatenate(
+        [scalar, w * q[..., 1:] + q[..., :1] * v + _cross(v, q[..., 1:])], axis=-1
+    )
+    return np.asarray(out / np.sqrt((out**2).sum(axis=-1, keepdims=True)))
+
+
+# ---- lengths -------------------------------------------------------------------------------------
 
 
 def _legs(at: Stations, radius: float) -> tuple[Floats, Floats, Floats]:
     """Steps in radii, turns as vectors of the world's frame, and what both are together."""
     dx = np.diff(at.x, axis=0) / radius
-    dr = (at.turn[1:] * at.turn[:-1].inv()).as_rotvec()
+    dr = _turns(at.q[:-1], at.q[1:])
     return dx, dr, np.sqrt((dx**2).sum(axis=1) + (dr**2).sum(axis=1))
 
 
@@ -60,7 +104,7 @@ def _radius(grid: Grid, pivot: tuple[int, int, int]) -> float:
 
 
 def _length(rows: Ints, radius: float) -> float:
-    return radius * float(_legs(Stations(rows[:, :3].astype(float), _rotations(rows)), radius)[2].sum())
+    return radius * float(_legs(_stations(rows), radius)[2].sum())
 
 
 def length(path: Path, scene: Scene | None = None) -> float:
@@ -121,7 +165,7 @@ class Checker:
     def user(self, row: Ints) -> Ints:
         """A pose of the object whose pivot is at that pose of the pivot."""
         out = row.copy()
-        moved = _rotations(row[None]).apply(self.pivot.astype(float))[0]
+        moved = _apply(_stations(row[None]).q[0], self.pivot.astype(float))
         out[:3] = np.clip(np.rint(row[:3] - moved), -(2**31), 2**31 - 1)
         return out
 
@@ -161,9 +205,10 @@ def deviation(rows: Ints) -> float:
 
 def _between(at: Stations, places: Floats) -> Stations:
     """Stations at fractional indices, straight between those given."""
-    count = np.arange(len(at.x))
-    x = np.stack([np.interp(places, count, at.x[:, k]) for k in range(3)], axis=1)
-    return Stations(x, Slerp(count, at.turn)(places))
+    i = np.minimum(places.astype(int), len(at.x) - 2)
+    t = (places - i)[:, None]
+    x = at.x[i] + t * (at.x[i + 1] - at.x[i])
+    return Stations(x, _turned(t * _turns(at.q[i], at.q[i + 1]), at.q[i]))
 
 
 def _resample(at: Stations, radius: float, count: int) -> Stations:
@@ -178,11 +223,11 @@ def _resample(at: Stations, radius: float, count: int) -> Stations:
 
 
 def _to_rows(at: Stations, dim: int) -> Ints:
-    wxyz = at.turn.as_quat()[:, [3, 0, 1, 2]] * _native.QUATERNION[dim]
+    wxyz = at.q * _native.QUATERNION[dim]
     if dim == 2:
         wxyz[:, 1:3] = 0
-    rows = np.concatenate([np.clip(at.x, -(2.0**31), 2.0**31 - 1), wxyz], axis=1)
-    return np.rint(rows).astype(np.int64).clip(-(2**31), 2**31 - 1).astype(np.int32)
+    rows = np.concatenate([at.x, wxyz], axis=1)
+    return np.asarray(np.clip(np.rint(rows), -(2.0**31), 2.0**31 - 1), dtype=np.int32)
 
 
 def _rows(at: Stations, first: Ints, last: Ints, dim: int) -> Ints:
@@ -197,7 +242,7 @@ def _rows(at: Stations, first: Ints, last: Ints, dim: int) -> Ints:
     step = np.diff(at.x, axis=0)[i]
     out = _between(at, places)
     bend = t * (1 - t) * ((1 - t) * (slope[i] - step) - t * (slope[i + 1] - step))
-    rows = _to_rows(Stations(out.x + bend, out.turn), dim)
+    rows = _to_rows(Stations(out.x + bend, out.q), dim)
     rows[0], rows[-1] = first, last
     return rows
 
@@ -213,7 +258,7 @@ def _shortcut(at: Stations, check: Checker, radius: float) -> Stations:
             to = here + (to - here) // 2
         kept.append(to)
         here = to
-    return _resample(Stations(at.x[kept], at.turn[kept]), radius, n)
+    return _resample(Stations(at.x[kept], at.q[kept]), radius, n)
 
 
 # ---- descent -------------------------------------------------------------------------------------
@@ -242,22 +287,24 @@ class Descent:
 
     def _moved(self, a: Stations, b: Stations) -> float:
         way = np.linalg.norm(a.x - b.x, axis=1)
-        return float((way + self.radius * (a.turn * b.turn.inv()).magnitude()).max())
+        return float((way + self.radius * np.linalg.norm(_turns(a.q, b.q), axis=1)).max())
 
     def _look(self, at: Stations) -> None:
         """Near pairs are looked for again when something may have come near meanwhile."""
         if self.listed is not None and self._moved(self.listed, at) <= self.slack:
             return
-        within = self.band + self.slack
+        within, n = self.band + self.slack, len(at.x)
+        arms = _apply(at.q[:, None], self.part[None, :, :3])
         found = []
-        for n in range(1, len(at.x) - 1):
-            far = np.linalg.norm(self.walls[:, :3] - at.x[n], axis=1)
-            walls = np.nonzero(far < self.radius + self.walls[:, 3] + within)[0]
-            centres = at.x[n] + at.turn[n].apply(self.part[:, :3])
-            gap = np.linalg.norm(centres[:, None] - self.walls[None, walls, :3], axis=2)
-            gap -= self.part[:, None, 3] + self.walls[None, walls, 3]
-            i, j = np.nonzero(gap < within)
-            found.append((np.full(len(i), n), i, walls[j]))
+        some = max(1, 1_000_000 // max(1, len(self.walls)))  # stations at a time
+        for first in range(1, n - 1, some):
+            x = at.x[first : min(first + some, n - 1)]
+            far = np.sqrt(((x[:, None] - self.walls[None, :, :3]) ** 2).sum(axis=2))
+            s, j = np.nonzero(far < self.radius + self.walls[:, 3] + within)
+            d = at.x[first + s][:, None] + arms[first + s] - self.walls[j, None, :3]
+            gap = np.sqrt((d**2).sum(axis=2)) - self.part[:, 3] - self.walls[j, None, 3]
+            k, i = np.nonzero(gap < within)
+            found.append((first + s[k], i, j[k]))
         s, i, j = (np.concatenate(parts) for parts in zip(*found))
         self.near, self.listed = (s, i, j), at
 
@@ -266,9 +313,9 @@ class Descent:
         self._look(at)
         assert self.near is not None
         s, i, j = self.near
-        arm = at.turn[s].apply(self.part[i, :3]) if len(s) else np.zeros((0, 3))
+        arm = _apply(at.q[s], self.part[i, :3])
         d = at.x[s] + arm - self.walls[j, :3]
-        size = np.linalg.norm(d, axis=1)
+        size = np.sqrt((d**2).sum(axis=1))
         gap = size - self.part[i, 3] - self.walls[j, 3]
         return arm, d / np.maximum(size, 1e-300)[:, None], gap
 
@@ -276,8 +323,8 @@ class Descent:
         """The least gap at stations between the ends."""
         return float(self._pairs(at)[2].min(initial=np.inf))
 
-    def cost(self, at: Stations, gradient: bool) -> tuple[float, Floats]:
-        """The cost; with six columns of gradient, in radii and radians."""
+    def cost(self, at: Stations) -> tuple[float, Floats]:
+        """The cost, and six columns of its gradient, in radii and radians."""
         dx, dr, _ = _legs(at, self.radius)
         bend = STIFFNESS * np.diff(at.x, 2, axis=0) / self.radius
         arm, away, gap = self._pairs(at)
@@ -286,32 +333,33 @@ class Descent:
         total = ((dx**2).sum() + (dr**2).sum() + (bend**2).sum()) / 2
         total += self.weight * pay.sum() / self.radius
         slope = np.zeros((len(at.x), 6))
-        if gradient:
-            slope[1:, :3] += dx
-            slope[:-1, :3] -= dx
-            slope[1:, 3:] += dr
-            slope[:-1, 3:] -= dr
-            for k, factor in enumerate((1, -2, 1)):
-                slope[k : len(slope) - 2 + k, :3] += factor * STIFFNESS * bend
-            assert self.near is not None
-            force = -soft[:, None] * away
-            push = np.concatenate([force, np.cross(arm, force) / self.radius], axis=1)
-            np.add.at(slope, self.near[0], self.weight * push)
+        slope[1:, :3] += dx
+        slope[:-1, :3] -= dx
+        slope[1:, 3:] += dr
+        slope[:-1, 3:] -= dr
+        for k, factor in enumerate((1, -2, 1)):
+            slope[k : len(slope) - 2 + k, :3] += factor * STIFFNESS * bend
+        assert self.near is not None
+        force = -soft[:, None] * away
+        push = np.concatenate([force, _cross(arm, force) / self.radius], axis=1)
+        for k in range(6):
+            slope[:, k] += self.weight * np.bincount(self.near[0], push[:, k], len(slope))
         return float(total), slope[1:-1]
 
     def run(self, at: Stations) -> Stations:
         """Steps that lower the cost, by a pace that grows while they do."""
-        pace = 0.02
-        cost, slope = self.cost(at, True)
-        for _ in range(STEPS):
-            if pace < 1e-9:
+        pace, before = 0.02, np.inf
+        cost, slope = self.cost(at)
+        for n in range(STEPS):
+            if pace < 1e-9 or (n % 25 == 24 and before - cost < 1e-5 * cost):
                 break
+            before = cost if n % 25 == 24 else before
             step = pace * cho_solve_banded((self.factor, False), slope)
-            x, turn = at.x.copy(), at.turn.as_quat()
+            x, q = at.x.copy(), at.q.copy()
             x[1:-1] -= self.radius * step[:, :3]
-            turn[1:-1] = (Rotation.from_rotvec(-step[:, 3:]) * at.turn[1:-1]).as_quat()
-            trial = Stations(x, Rotation.from_quat(turn))
-            after, new = self.cost(trial, True)
+            q[1:-1] = _turned(-step[:, 3:], q[1:-1])
+            trial = Stations(x, q)
+            after, new = self.cost(trial)
             if after >= cost:
                 pace /= 2
                 continue
@@ -329,8 +377,7 @@ def smooth(path: Path, scene: Scene | None = None) -> Path:
     if found == 0:
         return path
     count = int(np.clip(found / radius / SPACING, FEWEST, MOST))
-    first = Stations(path.grid[:, :3].astype(float), _rotations(path.grid))
-    at = _shortcut(_resample(first, radius, count), check, radius)
+    at = _shortcut(_resample(_stations(path.grid), radius, count), check, radius)
     descent = Descent(grid, path, radius, count)
     descent.weight = 0.2 * found / radius / count
     kept, idle = path, 0
