@@ -202,9 +202,10 @@ struct stage {
 
 static void stage_at(const int32_t a[3], const int32_t b[3], int32_t k, struct stage *out)
 {
+    const int64_t up = (int64_t)1 << 43; /* nothing negative is shifted: |b - a| k <= 2^42, up / 2^HALVINGS is whole */
     out->k = k;
-    for (int32_t i = 0; i < 3; i++) /* < 2^43 */
-        out->x[i] = (int32_t)(a[i] + ((((int64_t)b[i] - a[i]) * k + (1 << (HALVINGS - 1))) >> HALVINGS));
+    for (int32_t i = 0; i < 3; i++)
+        out->x[i] = (int32_t)(a[i] + ((((int64_t)b[i] - a[i]) * k + (1 << (HALVINGS - 1)) + up) >> HALVINGS) - (up >> HALVINGS));
 }
 
 /* Is every pose clear whose pivot is anywhere on the way between two stages, its rotation anywhere on the arc between
