@@ -8,15 +8,30 @@ DESTDIR =
 VERSION = $(shell sed -n 's/^\#define CAGE_VERSION "\(.*\)"/\1/p' include/cage.h)
 ABI     = $(shell sed -n 's/^\#define CAGE_ABI \([0-9]*\).*/\1/p' include/cage.h)
 
+# Libraries that the command uses where they are installed: a program is compiled and linked with them to find out. Without them
+# it says what is missing; `make CHOLMOD=no CCD=no` goes without.
+SPARSE_I = -I/usr/include/suitesparse
+CHOLMOD_L = -lcholmod -lsuitesparseconfig
+HASH := \#
+CHOLMOD := $(shell printf '$(HASH)include <cholmod.h>\nint main(void) { cholmod_common c; return !cholmod_start(&c); }\n' | \
+  $(CC) $(SPARSE_I) -x c - $(CHOLMOD_L) -o /dev/null 2> /dev/null && echo yes || echo no)
+CCD := $(shell printf '$(HASH)include <ccd/ccd.h>\nint main(void) { ccd_t c; return ccdMPRIntersect(&c, &c, &c); }\n' | \
+  $(CC) -x c - -lccd -lm -o /dev/null 2> /dev/null && echo yes || echo no)
+EXTRAS = CHOLMOD=$(CHOLMOD) CCD=$(CCD)
+LEFT_OUT = $(if $(filter yes,$(CHOLMOD)),src/host/metric_none.c,src/host/metric.c) \
+  $(if $(filter yes,$(CCD)),src/host/parts_none.c,src/host/parts.c src/host/parts_balls.c)
+EXTRA_L = $(if $(filter yes,$(CHOLMOD)),$(CHOLMOD_L)) $(if $(filter yes,$(CCD)),-lccd)
+
 CORE    = $(sort $(wildcard src/*.c))
-HOST    = $(sort $(wildcard src/host/*.c))
+HOST    = $(filter-out $(LEFT_OUT),$(sort $(wildcard src/host/*.c)))
 HEADERS = $(wildcard include/*.h src/*.h src/host/*.h)
 CORE_O  = $(CORE:src/%.c=build/core/%.o)
 PIC_O   = $(CORE:src/%.c=build/pic/%.o)
 HOST_O  = $(HOST:src/host/%.c=build/host/%.o)
 
 .DEFAULT_GOAL = all
-.PHONY: all lib shared demo test check-firmware check-python soak amalgamation packages bench bench-peers install uninstall clean help
+.PHONY: FORCE all lib shared demo test check-paths check-firmware check-python soak amalgamation packages bench bench-peers \
+  install uninstall clean help
 
 all: build/cage ## the command build/cage and the static library
 lib: build/libcage.a ## the static library, from freestanding C99
@@ -32,7 +47,7 @@ build/pic/%.o: src/%.c $(HEADERS) Makefile
 
 build/host/%.o: src/host/%.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
-	$(CC) -std=c99 -D_XOPEN_SOURCE=700 $(CFLAGS) $(WARN) -Iinclude -c $< -o $@
+	$(CC) -std=c99 -D_XOPEN_SOURCE=700 $(CFLAGS) $(WARN) -Iinclude $(SPARSE_I) -c $< -o $@
 
 build/libcage.a: $(CORE_O)
 	rm -f $@
@@ -42,8 +57,14 @@ build/libcage.so.$(ABI): $(PIC_O)
 	$(CC) -shared -Wl,-soname,libcage.so.$(ABI) $(CFLAGS) $(PIC_O) -o $@
 	ln -sf libcage.so.$(ABI) build/libcage.so
 
-build/cage: $(HOST_O) build/libcage.a
-	$(CC) $(CFLAGS) $(HOST_O) build/libcage.a -lm -pthread -o $@
+# Changes when they do: then the command is linked again.
+build/extras: FORCE
+	@mkdir -p $(@D)
+	@echo '$(EXTRAS)' | cmp -s - $@ || echo '$(EXTRAS)' > $@
+FORCE:
+
+build/cage: $(HOST_O) build/libcage.a build/extras
+	$(CC) $(CFLAGS) $(HOST_O) build/libcage.a $(EXTRA_L) -lm -pthread -o $@
 
 demo: build/cage ## prove the example scenes: verdicts as a table, pictures in build/demo
 	sh examples/demo.sh build/cage build/demo
@@ -92,6 +113,20 @@ build/soak build/soak_space: build/%: tests/%.c $(HELPERS) $(HEADERS) build/test
 
 build/soak_atlas: tests/soak_atlas.c $(HELPERS) $(HEADERS) build/sanitized/libhelpers.a
 	$(CC) -std=c99 -D_POSIX_C_SOURCE=200809L $(CFLAGS) $(SANITIZE) $(TEST_I) $< build/sanitized/libhelpers.a -lgmp -lm -o $@
+
+# Programs with the command's own files beside its main: paths made smooth, true shapes; and an atlas beside SuiteSparse's BTF.
+PATHS_O = $(filter-out build/host/main.o,$(HOST_O))
+PATHS_I = -iquote src/host -iquote src -iquote tests -Iinclude $(SPARSE_I)
+build/check_%: tests/paths/%.c tests/random.c $(PATHS_O) build/libcage.a build/extras
+	$(CC) -std=c99 -D_XOPEN_SOURCE=700 $(CFLAGS) -Wall -Wextra -Wshadow $(PATHS_I) $< tests/random.c $(PATHS_O) build/libcage.a \
+	  $(EXTRA_L) $(MORE_L) -lm -pthread -o $@
+build/check_classes: MORE_L = -lbtf
+
+CHECKS = build/check_paths build/check_parts build/check_classes
+check-paths: ## smooth paths, candidates, true shapes: install what they need (when it may), build and judge them
+	sh tests/paths/deps.sh
+	$(MAKE) --no-print-directory -s build/cage $(CHECKS)
+	sh tests/paths/run.sh build/cage
 
 soak: build/soak build/soak_space build/soak_atlas ## hunt for contradictions and crashes: build/soak FROM TO, likewise _space, _atlas
 	build/soak 1 2000

@@ -203,6 +203,25 @@ const cage_result *cage_prove_result(const cage_proof *proof);
 int32_t cage_prove_region(cage_proof *proof, const int32_t origin[3], int32_t pitch,
                           const int32_t count[3], uint8_t *mask);
 
+/* ---- candidates ----------------------------------------------------------------------------------- */
+
+/* One step of the inner way: a component of the slice of the cell whose representative rotation is q. */
+typedef struct cage_step {
+    int32_t q[4];
+    int32_t level;     /* of the cell; -1: the rotation of start or goal alone */
+    int32_t component; /* of its inner slice; 0: the outside */
+    int32_t pose;      /* the first on the path over this cell */
+} cage_step;
+
+/* After UNDEFINED, with the inner side: a way that the inner slices leave open (which a proof would have to close), as the
+ * sequence of (component, slice) pairs and as a decomposable path of the pivot, like cage_result.path. A CANDIDATE: balls made
+ * smaller can go it (each by how far it moves within the cells), the object itself may collide on it, and cage_path_check tells.
+ * count: {steps, poses} there are; what there is no room for is not written. 1: found; 0: there is none, or the answer was another;
+ * CAGE_ERROR_ARGUMENT also before the proof has ended; after CAGE_ERROR_MEMORY needed_bytes says what block to try the proof in,
+ * and what was written is no candidate. Builds slices again. It changes no other answer: result and region stay as they were. */
+int32_t cage_prove_candidate(cage_proof *proof, cage_step *step, int32_t steps, cage_pose *path, int32_t poses,
+                             int32_t count[2]);
+
 /* ---- margin -------------------------------------------------------------------------------------- */
 
 /* By how much every radius must shrink (negative: may grow) for the answer to change, the balls smaller than that gone:
@@ -228,8 +247,9 @@ int32_t cage_margin_find(const cage_scene *scene, const cage_pose *start, const 
 /* ---- paths --------------------------------------------------------------------------------------- */
 
 /* A path is a sequence of poses of the pivot: the object's ball (y, r) sits at x + R(q)(y - pivot).
- * From each pose to the next either x is the same and the object turns about the pivot along the shorter arc, or q
- * is the same (up to scale) and it moves on a straight line. The first pose is the start, its pivot moved
+ * From each pose to the next the pivot moves on a straight line while the object turns about it along the shorter arc, both
+ * at a constant rate. On a path that cage_prove found, x or q (up to scale) stays: it moves or turns, not both.
+ * The first pose is the start, its pivot moved
  * to a grid point less than 1 unit away; with a goal the last pose is the goal, likewise. Without one, at the last pose
  * the whole object is beyond an axis-parallel line (plane) that has all obstacles on its other side.
  *
@@ -389,6 +409,7 @@ int64_t cage_atlas_boxes(const cage_atlas *atlas, int32_t side, int32_t cell, in
 #define CAGE_STRUCT_ATLAS 10
 #define CAGE_STRUCT_CLASS 11
 #define CAGE_STRUCT_BOX 12
+#define CAGE_STRUCT_STEP 13
 int32_t cage_abi(void);
 size_t cage_struct_size(int32_t which);
 

@@ -22,6 +22,7 @@ size_t cage_struct_size(int32_t which)
     case CAGE_STRUCT_ATLAS: return sizeof(cage_atlas);
     case CAGE_STRUCT_CLASS: return sizeof(cage_class);
     case CAGE_STRUCT_BOX: return sizeof(cage_atlas_box);
+    case CAGE_STRUCT_STEP: return sizeof(cage_step);
     default: return 0;
     }
 }

@@ -2,12 +2,16 @@
  *
  * Object balls are placed by dividing exact integers, R(q) y = M(q) y / |q|^2 to the nearest grid point: off by less than 1
  * unit, so a distance that is 1 unit larger than needed is large enough. During a turn about the pivot along
- * the shorter arc (at most 90 degrees between the quaternions) a ball is never farther from where it began than where it ends. */
+ * the shorter arc (at most 90 degrees between the quaternions) a ball is never farther from where it began than where it ends;
+ * that holds for a leg that moves as well, seen from the pivot. */
 #include "certify.h"
 #include "body.h"
 #include "wide.h"
 
 enum { PLACE_LIMIT = 1 << 30, CERTIFY_PIECES = 1 << 10 };
+
+/* A leg that does both is halved so often at most, and its quaternions are of this length. */
+enum { HALVINGS = 10, LENGTH = (1 << 30) - 8 };
 
 /* N R(q) v, N = |q|^2, entries of q at most 2^30, of v at most 2^29: < 2^93. */
 static void turned(const int32_t q[4], const int32_t v[3], cage_i128 out[3], int64_t *norm)
@@ -168,6 +172,105 @@ bool cage_certify_turn(const cage_scene *scene, const int32_t pivot[3], const in
     return false;
 }
 
+/* ---- legs that move and turn at once --------------------------------------------------------------------- */
+
+/* q made as long as LENGTH: each entry is off by at most a half, so the direction by less than 2^-30; lengths agree to
+ * 2^-28. */
+static void to_length(const int64_t q[4], int32_t out[4])
+{
+    cage_i128 square = cage_i128_of(0);
+    for (int32_t i = 0; i < 4; i++)
+        square = cage_i128_add(square, cage_i128_mul(q[i], q[i])); /* entries <= 2^31: < 2^64 */
+    int64_t length = (int64_t)cage_u128_root(square);
+    for (int32_t i = 0; i < 4; i++)
+        out[i] = (int32_t)cage_i128_nearest(cage_i128_mul(q[i], LENGTH), cage_i128_of(length), (int64_t)1 << 30);
+}
+
+/* The rotation in the middle of the arc: the sum of quaternions of one length. What their lengths differ by puts it off the
+ * middle by less than 2^-29, rounding by 2^-30, and what they are off themselves by no more than the larger of that. */
+static void middle(const int32_t q[4], const int32_t r[4], int32_t out[4])
+{
+    const int64_t sum[4] = {(int64_t)q[0] + r[0], (int64_t)q[1] + r[1], (int64_t)q[2] + r[2], (int64_t)q[3] + r[3]};
+    to_length(sum, out);
+}
+
+/* Where a leg is at k / 2^HALVINGS of it: x less than 0.87 off. */
+struct stage {
+    int32_t k;
+    int32_t x[3], q[4];
+};
+
+static void stage_at(const int32_t a[3], const int32_t b[3], int32_t k, struct stage *out)
+{
+    const int64_t up = (int64_t)1 << 43; /* nothing negative is shifted: |b - a| k <= 2^42, up / 2^HALVINGS is whole */
+    out->k = k;
+    for (int32_t i = 0; i < 3; i++)
+        out->x[i] = (int32_t)(a[i] + ((((int64_t)b[i] - a[i]) * k + (1 << (HALVINGS - 1)) + up) >> HALVINGS) - (up >> HALVINGS));
+}
+
+/* Is every pose clear whose pivot is anywhere on the way between two stages, its rotation anywhere on the arc between
+ * theirs? A ball is then no farther from where it would be at the first stage's rotation than that is from where it would
+ * be at the second's. */
+static bool piece_clear(const cage_scene *scene, const int32_t pivot[3], const struct stage *from, const struct stage *to)
+{
+    for (int32_t i = 0; i < scene->object.outer_count; i++) {
+        const cage_ball *y = &scene->object.outer[i];
+        int64_t at[3], end[3], arm = 0;
+        cage_i128 square = cage_i128_of(0);
+        place_ball(from->q, y, pivot, at);
+        place_ball(to->q, y, pivot, end);
+        for (int32_t k = 0; k < 3; k++) {
+            square = cage_i128_add(square, cage_i128_mul(end[k] - at[k], end[k] - at[k]));
+            arm += at[k] < 0 ? -at[k] : at[k];
+        }
+        /* The root rounded up, four times 0.87 for the rounding of both places, of the centre and of the way, and both
+         * quaternions off by HALVINGS + 1 times 2^-28 at most: three times twice that, less than 2^-21 of the arm. */
+        int64_t spare = (int64_t)cage_u128_root(square) + 1 + 4 + 1 + (arm >> 21);
+        for (int32_t j = 0; j < scene->obstacles.outer_count; j++) {
+            const cage_ball *x = &scene->obstacles.outer[j];
+            const int64_t centre[3] = {x->x - at[0], x->y - at[1], x->z - at[2]};
+            if (!segment_clear(from->x, to->x, centre, (int64_t)x->r + y->r + spare))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* Halved where that is needed. Both ends of a piece are passed at the same time by the straight way and by the arc, when each
+ * goes at a constant rate. */
+bool cage_certify_move(const cage_scene *scene, const int32_t pivot[3], const cage_pose *a, const cage_pose *b)
+{
+    struct stage from, ahead[HALVINGS + 1]; /* the ends of pieces to come, the next one last */
+    int64_t q[4], r[4], dot = 0;
+    int32_t count = 1;
+    lengthen(a->q, q);
+    lengthen(b->q, r);
+    for (int32_t i = 0; i < 4; i++)
+        dot += q[i] * r[i]; /* <= 2^62 */
+    if (dot == 0)
+        return false;
+    for (int32_t i = 0; i < 4; i++)
+        r[i] = dot < 0 ? -r[i] : r[i];
+    stage_at(a->x, b->x, 0, &from);
+    stage_at(a->x, b->x, 1 << HALVINGS, &ahead[0]);
+    to_length(q, from.q);
+    to_length(r, ahead[0].q);
+    while (count > 0) {
+        const struct stage *to = &ahead[count - 1];
+        if (piece_clear(scene, pivot, &from, to)) {
+            from = *to;
+            count--;
+        } else if (to->k - from.k == 1) {
+            return false;
+        } else {
+            stage_at(a->x, b->x, (from.k + to->k) / 2, &ahead[count]);
+            middle(from.q, to->q, ahead[count].q);
+            count++; /* pieces are aligned: at most HALVINGS + 1 */
+        }
+    }
+    return true;
+}
+
 static bool same_rotation(const int32_t q[4], const int32_t r[4])
 {
     for (int32_t i = 0; i < 4; i++)
@@ -272,6 +375,8 @@ int32_t cage_path_check(const cage_scene *scene, const cage_pose *start, const c
             clear = cage_certify_leg(scene, pivot, a->q, a->x, b->x, 0);
         else if (same_place(a->x, b->x))
             clear = cage_certify_turn(scene, pivot, a->x, a->q, b->q, CERTIFY_PIECES);
+        else
+            clear = cage_certify_move(scene, pivot, a, b);
         if (!clear)
             return 0;
     }

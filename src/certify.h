@@ -16,6 +16,10 @@ bool cage_certify_leg(const cage_scene *scene, const int32_t pivot[3], const int
 bool cage_certify_turn(const cage_scene *scene, const int32_t pivot[3], const int32_t p[3], const int32_t q[4],
                        const int32_t r[4], int32_t pieces);
 
+/* May the pivot move on a straight line while the object turns about it on the shorter arc, both at a constant rate?
+ * True is a proof. */
+bool cage_certify_move(const cage_scene *scene, const int32_t pivot[3], const cage_pose *a, const cage_pose *b);
+
 /* The extent of the scene's outer obstacles along an axis, and the largest distance of a point of the object from its pivot. */
 void cage_certify_extent(const cage_scene *scene, int32_t axis, int32_t *low, int32_t *high);
 int32_t cage_certify_size(const cage_scene *scene, const int32_t pivot[3]);

@@ -1,4 +1,5 @@
 /* path: decomposable path along the outer way: translations inside a slice, turns between slices, each step certified.
+ * Along the inner way the same, and not certified: a candidate.
  *
  * Inside a slice the way runs from simplex to simplex of one component: the segment between the orthocentres of two
  * free neighbours is free, and so is that from a free point to the orthocentre of its simplex. Way points are rounded
@@ -17,8 +18,9 @@ struct point {
     int32_t x[3];
 };
 
-void cage_path_begin(struct cage_proof *proof)
+void cage_path_begin(struct cage_proof *proof, int32_t side)
 {
+    proof->path_side = side;
     size_t room = cage_arena_room(&proof->arena, sizeof *proof->path);
     proof->path_room = room > INT32_MAX ? INT32_MAX : (int32_t)room;
     proof->path = (cage_pose *)(void *)(proof->arena.base + proof->arena.used);
@@ -141,8 +143,9 @@ static bool append(struct cage_proof *proof, const int32_t x[3], const int32_t q
 static int32_t append_way(struct cage_proof *proof, const struct point *way, int32_t count, const int32_t q[4])
 {
     for (int32_t at = 0; at + 1 < count;) {
-        int32_t to = count - 1;
-        while (!cage_certify_leg(&proof->scene, proof->result.pivot, q, way[at].x, way[to].x, 0)) {
+        int32_t to = proof->path_side == CAGE_INNER ? at + 1 : count - 1;
+        while (proof->path_side == CAGE_OUTER &&
+               !cage_certify_leg(&proof->scene, proof->result.pivot, q, way[at].x, way[to].x, 0)) {
             if (to == at + 1)
                 return CAGE_PATH_FAILED;
             to = at + (to - at) / 2;
@@ -167,6 +170,9 @@ static int32_t append_leg(struct cage_proof *proof, const struct cage_slice *sli
         return CAGE_ERROR_MEMORY;
     int32_t first = cage_delaunay_locate(t, enter, 0), last = leave ? cage_delaunay_locate(t, leave, first) : -1;
     last = route(slice, first, last, from, queue);
+    if (last < 0 && proof->path_side == CAGE_INNER) { /* a common point beside a component thinner than the grid */
+        return !leave || append(proof, leave, q) ? CAGE_OK : CAGE_ERROR_MEMORY;
+    }
     if (last < 0)
         return CAGE_PATH_FAILED;
 
@@ -203,7 +209,8 @@ static void clip(struct cage_proof *proof)
         for (int32_t k = 0; k < 3; k++)
             last->x[k] = (int32_t)(from.x[k] + ((int64_t)to.x[k] - from.x[k]) * n / CLIPS);
         if (cage_certify_beyond(&proof->scene, proof->result.pivot, last->x) &&
-            cage_certify_leg(&proof->scene, proof->result.pivot, to.q, from.x, last->x, 0))
+            (proof->path_side == CAGE_INNER ||
+             cage_certify_leg(&proof->scene, proof->result.pivot, to.q, from.x, last->x, 0)))
             return;
     }
     *last = to;
@@ -223,12 +230,12 @@ static void common_of(const struct cage_graph *graph, int32_t a, int32_t a_turne
 int32_t cage_path_step(struct cage_proof *proof)
 {
     struct cage_node *node = proof->leg, *next = node->next_open;
-    int32_t q[4];
+    int32_t q[4], (*at)[3] = proof->path_side == CAGE_OUTER ? proof->outer_at : proof->at;
     cage_so3_turned(proof->graph.cell[node->cell].rotations.q, proof->turned, q);
-    const int32_t *enter = node->via ? node->via->x : proof->outer_at[proof->origin];
-    const int32_t *leave = next ? next->via->x : proof->graph.goal ? proof->outer_at[1 - proof->origin] : NULL;
+    const int32_t *enter = node->via ? node->via->x : at[proof->origin];
+    const int32_t *leave = next ? next->via->x : proof->graph.goal ? at[1 - proof->origin] : NULL;
     const struct cage_slice *slice;
-    int32_t error = cage_proof_slice(proof, CAGE_OUTER, node->cell, &slice);
+    int32_t error = cage_proof_slice(proof, proof->path_side, node->cell, &slice);
     if (error != CAGE_OK)
         return error;
     if (!node->via && !append(proof, proof->at[proof->origin], q))
@@ -254,13 +261,15 @@ int32_t cage_path_step(struct cage_proof *proof)
         return 0;
     if (!proof->graph.goal)
         clip(proof);
-    else if (!append(proof, proof->at[1 - proof->origin], q))
+    if (proof->graph.goal && !append(proof, proof->at[1 - proof->origin], q))
         return CAGE_ERROR_MEMORY;
     for (int32_t i = 0, k = proof->path_count - 1; proof->origin == CAGE_CELL_GOAL && i < k; i++, k--) {
         cage_pose pose = proof->path[i];
         proof->path[i] = proof->path[k];
         proof->path[k] = pose;
     }
+    if (proof->path_side == CAGE_INNER)
+        return 1;
     return cage_path_check(&proof->scene, &proof->pose[0], proof->graph.goal ? &proof->pose[1] : NULL, proof->result.pivot,
                            proof->path, proof->path_count) == 1
                ? 1

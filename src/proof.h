@@ -45,6 +45,7 @@ struct cage_proof {
     int32_t error;
     struct cage_node *way;      /* the target that a search has reached */
     cage_pose *path;
+    int32_t path_side;          /* of the way it follows; the inner one's is a candidate */
     int32_t path_room;
     int32_t path_count;
     struct cage_node *leg;      /* node of the way whose leg of the path comes next, */
@@ -123,8 +124,8 @@ int32_t cage_refine_choose(const struct cage_proof *proof, struct cage_node *tar
 /* Without an inner way: the coarsest leaf that the outer search has reached, or the coarsest of all; -1: none can be cut. */
 int32_t cage_refine_coarsest(const struct cage_proof *proof);
 
-/* Reserve the memory that is left for a path along the outer way, which ends at proof->way. */
-void cage_path_begin(struct cage_proof *proof);
+/* Reserve the memory that is left for a path along the way of that side, which ends at proof->way. */
+void cage_path_begin(struct cage_proof *proof, int32_t side);
 
 /* Add the leg through one node; 1: that was the last, 0: more to come, CAGE_ERROR_..., or CAGE_PATH_FAILED. */
 int32_t cage_path_step(struct cage_proof *proof);

@@ -134,7 +134,7 @@ static int32_t step_outer(struct cage_proof *proof)
         proof->limits.side = CAGE_SIDE_INNER; /* from now on */
     }
     if (done == CAGE_FOUND) {
-        cage_path_begin(proof);
+        cage_path_begin(proof, CAGE_OUTER);
         proof->phase = PATH;
         return CAGE_OK;
     }

@@ -14,7 +14,7 @@ add() { # NAME COMMAND
 
 quick='CK_FORK=no CAGE_TEST_QUICK=10'
 slow='CK_FORK=no CAGE_TEST_QUICK=40'
-memcheck='valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=all'
+memcheck='valgrind -q --suppressions=tests/libgomp.supp --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=all'
 for source in tests/test_*.c; do
     test=$(basename "$source" .c)
     add "$test" "build/test/$test"

@@ -73,6 +73,9 @@ typedef struct host_answer {
     cage_proof *proof;
     double seconds;
     const cage_margin *margin; /* null where it was not asked for */
+    const struct host_way *way; /* the path, made smooth; or null (smooth.h) */
+    const struct host_candidate *candidate; /* a way that nothing is proved of; or null (smooth.h) */
+    const struct parts_check *parts; /* what true shapes say of these; or null (parts.h) */
     const struct picture_cloud *cloud; /* where the pivot can be (in the plane looked for by who draws), or null (picture.h) */
     const char *name, *title;          /* of a picture; null: its verdict, and what that means */
 } host_answer;

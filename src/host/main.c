@@ -1,7 +1,7 @@
 /* main.c: the command "cage": finds the subcommand in a table and runs it. */
 #include <string.h>
 
-#include "host.h"
+#include "parts.h"
 
 typedef struct command {
     const char *name;
@@ -31,6 +31,10 @@ static void print_help(FILE *out)
                        "commands:\n");
     for (i = 0; i < command_count; i++)
         (void)fprintf(out, "  %-8s %s\n", commands[i].name, commands[i].purpose);
+    (void)fprintf(out, "\n"
+                       "in this build:\n"
+                       "  smooth paths (prove --smooth) by %s\n"
+                       "  true shapes (prove --parts) by %s\n", smooth_metric_name(), host_parts_name());
 }
 
 static const command *find_command(const char *name)

@@ -5,6 +5,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "parts.h"
 #include "picture.h"
 #include "threads.h"
 
@@ -15,8 +16,8 @@
 
 typedef struct options {
     const char *object, *obstacles, *start, *goal, *svg, *ply;
-    const char *side, *max_level, *max_cells, *memory, *unit, *threads, *margin;
-    int json, quiet;
+    const char *side, *max_level, *max_cells, *memory, *unit, *threads, *margin, *path, *parts;
+    int json, quiet, smooth, candidate;
 } options;
 
 void host_prove_help(FILE *out)
@@ -47,6 +48,11 @@ void host_prove_help(FILE *out)
         "  space or commas; # starts a comment. POSE is x,y,degrees in the plane (counter-clockwise) or\n"
         "  x,y,z,qw,qx,qy,qz in space (a quaternion of any length): the object's point p goes to R p plus\n"
         "  (x,y) or (x,y,z). Balls may touch.\n"
+        "\n"
+        "  --parts FILE has one convex part a line: object or obstacle, a shape, and where it is in the object's frame\n"
+        "  or in the world, if not at the origin: \"obstacle box 20 10 @ 5,0,30\". In the plane: box WIDTH HEIGHT, disc\n"
+        "  RADIUS, capsule RADIUS LENGTH (straight, along x), hull X Y X Y X Y ...; in space: box X Y Z, cylinder RADIUS\n"
+        "  LENGTH and capsule RADIUS LENGTH (along z), hull X Y Z ... All are about their middle, but hulls.\n"
         "\n");
     (void)fprintf(out,
         "options:\n"
@@ -61,6 +67,15 @@ void host_prove_help(FILE *out)
         "                  are the same. More than one take memory of their own as well, 4M to 256M each\n"
         "  --margin N      find out as well by how much every radius may shrink before the answer changes (negative:\n"
         "                  must grow), by N more proofs, each twice as close\n"
+        "  --smooth        make the path short and smooth: it then moves and turns at once, and goes through its poses on\n"
+        "                  a curve without corners that is certified as a whole (needs CHOLMOD: cage --help says whether\n"
+        "                  it is there).\n"
+        "                  An answer UNDEFINED becomes FREE or CONNECTED if a candidate can be smoothed so\n"
+        "  --candidate     when it is UNDEFINED show a way that was not closed: its cells, its path, where it collides\n"
+        "  --path FILE     write the path as CSV: the time from 0 to 1, the object's pose like POSE, where its pivot is\n"
+        "  --parts FILE    look with the true shapes at the path, or at the candidate that is shown: do they collide anywhere\n"
+        "                  on it? And do the balls lie inside them, and cover them? A check by samples, never part of a proof\n"
+        "                  (needs libccd: cage --help says whether it is there)\n"
         "  --unit U        length of a grid unit (default: the finest power of two at which the scene\n"
         "                  fits). Balls between grid points are rounded to the safe side\n"
         "  --json          print one JSON object instead of text\n"
@@ -102,7 +117,9 @@ static int read_options(int argc, char **argv, options *given, host_error *error
         { "--max-level", &given->max_level, NULL }, { "--max-cells", &given->max_cells, NULL },
         { "--memory", &given->memory, NULL },       { "--unit", &given->unit, NULL },
         { "--ply", &given->ply, NULL },             { "--threads", &given->threads, NULL },
-        { "--margin", &given->margin, NULL },
+        { "--margin", &given->margin, NULL },       { "--path", &given->path, NULL },
+        { "--parts", &given->parts, NULL },
+        { "--smooth", NULL, &given->smooth },       { "--candidate", NULL, &given->candidate },
         { "--json", NULL, &given->json },           { "--quiet", NULL, &given->quiet },
     };
     int code;
@@ -263,12 +280,83 @@ static int find_margin(const host_answer *answer, int32_t rounds, cage_margin *m
                                                   "--margin: %.200s", cage_error_text(state));
 }
 
-static int show_answer(const options *given, host_answer *answer, host_error *error)
+/* A path that is found is made smooth, and stands for the one that was; a candidate, if it becomes a path. */
+static int smooth_path(host_answer *answer, const host_candidate *candidate, cage_result *result, host_way *way,
+                       host_error *error)
+{
+    const int found = answer->result->path_count > 0;
+    int code = HOST_OK;
+
+    if (!found && candidate->count < 2)
+        return HOST_OK;
+    *result = *answer->result;
+    if (found)
+        code = host_smooth(answer, result->path, result->path_count, 1, way, error);
+    else
+        code = host_smooth(answer, candidate->pose, candidate->count, 0, way, error);
+    if (code != HOST_OK || way->count == 0)
+        return code;
+    result->path = way->pose;
+    result->path_count = way->count;
+    if (!found) {
+        result->verdict = answer->query->has_goal ? CAGE_CONNECTED : CAGE_FREE;
+        result->reason = CAGE_REASON_PATH;
+    }
+    answer->result = result;
+    answer->way = way;
+    answer->candidate = NULL; /* there is a path now */
+    return check_path(answer, error);
+}
+
+static int find_candidate(const options *given, host_answer *answer, host_candidate *candidate, host_error *error)
+{
+    int code = HOST_OK;
+
+    if (answer->result->verdict == CAGE_UNDEFINED)
+        code = host_find_candidate(answer, candidate, error);
+    if (code == HOST_OK && given->candidate && candidate->count > 0) {
+        code = host_look_at_candidate(answer, candidate, error);
+        answer->candidate = candidate;
+    }
+    return code;
+}
+
+/* A path as it was found, or smoothed, to a file; without one the file is empty but for its header. */
+static int write_path(const char *file, const host_answer *answer, host_error *error)
+{
+    host_way way;
+
+    memset(&way, 0, sizeof way);
+    way.count = answer->result->path_count;
+    way.pose = (cage_pose *)answer->result->path;
+    return host_write_way(file, answer, answer->way != NULL ? answer->way : &way, error);
+}
+
+/* What show_answer makes, and run frees. */
+typedef struct findings {
+    host_way way;
+    host_candidate candidate;
+    host_parts parts;
+    parts_check check;
+} findings;
+
+static int show_answer(const options *given, host_answer *answer, findings *found, host_error *error)
 {
     cage_margin margin;
+    cage_result smoothed;
     int32_t rounds;
     int code = check_path(answer, error);
 
+    if (code == HOST_OK && (given->smooth || given->candidate))
+        code = find_candidate(given, answer, &found->candidate, error);
+    if (code == HOST_OK && given->smooth)
+        code = smooth_path(answer, &found->candidate, &smoothed, &found->way, error);
+    if (code == HOST_OK && given->path != NULL)
+        code = write_path(given->path, answer, error);
+    if (code == HOST_OK && given->parts != NULL) {
+        code = host_check_parts(answer, &found->parts, &found->check, error);
+        answer->parts = &found->check;
+    }
     if (code == HOST_OK && given->margin != NULL)
         code = host_blame(error, "--margin", host_parse_integer(given->margin, 0, 64, &rounds, error));
     if (code == HOST_OK && given->margin != NULL)
@@ -291,6 +379,7 @@ static int show_answer(const options *given, host_answer *answer, host_error *er
 static int run(const options *given, host_query *query, host_grid *grid, void **block, host_error *error)
 {
     host_answer answer;
+    findings found;
     cage_limits limits;
     job todo;
     double unit = 0;
@@ -314,11 +403,22 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
     if (code == HOST_OK)
         code = host_check_writable("--ply", given->ply, error);
     if (code == HOST_OK)
+        code = host_check_writable("--path", given->path, error);
+    if (code == HOST_OK && given->smooth && !smooth_metric_available())
+        code = host_fail(error, HOST_BAD_INPUT, "--smooth: this build is without CHOLMOD (see the README)");
+    if (code == HOST_OK)
         code = read_limits(given, query->dim, &limits, error);
     if (code == HOST_OK)
         code = host_to_grid(query, unit, grid, error);
+    if (code == HOST_OK && given->parts != NULL && !host_parts_available())
+        code = host_fail(error, HOST_BAD_INPUT, "--parts: this build is without libccd (see the README)");
     if (code != HOST_OK)
         return code;
+    memset(&found, 0, sizeof found);
+    if (given->parts != NULL && (code = host_read_parts(given->parts, query->dim, &found.parts, error)) != HOST_OK) {
+        host_free_parts(&found.parts);
+        return code;
+    }
     if (!given->quiet)
         host_warn_empty(given->object, given->obstacles, query);
     memset(&answer, 0, sizeof answer);
@@ -330,7 +430,13 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
     todo.progress = progress;
     code = host_in_block(cage_prove_size(&grid->scene, &limits), given->memory != NULL ? &bytes : NULL, attempt, &todo, block,
                          "query", error);
-    return code == HOST_OK ? show_answer(given, &answer, error) : code;
+    if (code == HOST_OK)
+        code = show_answer(given, &answer, &found, error);
+    host_free_way(&found.way);
+    host_free_candidate(&found.candidate);
+    host_free_parts(&found.parts);
+    host_free_check(&found.check);
+    return code;
 }
 
 int host_prove(int argc, char **argv)

@@ -1,7 +1,7 @@
 /* report.c: an answer as sentences, and as one JSON object. */
 #include <math.h>
 
-#include "host.h"
+#include "parts.h"
 
 /* ---- text ---------------------------------------------------------------------------------------- */
 
@@ -144,6 +144,72 @@ static void print_margin(FILE *out, const host_answer *answer)
     }
 }
 
+static void print_way(FILE *out, const host_answer *answer)
+{
+    const host_way *way = answer->way;
+    const double unit = answer->grid->unit;
+
+    if (way->smooth)
+        (void)fprintf(out, "        smoothed: length %.6g instead of %.6g, and proved with the curve through the poses,\n"
+                           "        which is off the straight legs between them by %.2g at most\n",
+                      way->length * unit, way->found_length * unit, way->deviation * unit);
+    else
+        (void)fprintf(out, "        not smoothed: no shorter path was certified; length %.6g\n", way->length * unit);
+}
+
+static void print_candidate(FILE *out, const host_answer *answer)
+{
+    const host_candidate *c = answer->candidate;
+    host_pose at;
+    int32_t i;
+
+    (void)fprintf(out, "Candidate  not proved: a way of %ld cells and %ld poses that balls made smaller can go; on it the\n"
+                       "        object %s\n",
+                  (long)c->steps, (long)c->count, c->places == 0 ? "was not seen to collide" : "collides:");
+    for (i = 0; i < c->places; i++) {
+        host_from_grid(&c->place[i].at, answer->result->pivot, answer->query->dim, answer->grid->unit, &at);
+        (void)fprintf(out, "        by %.3g at ", c->place[i].depth * answer->grid->unit);
+        host_print_pose(out, &at);
+        (void)fprintf(out, ", after pose %ld\n", (long)c->place[i].leg + 1);
+    }
+}
+
+static void print_cover(FILE *out, const char *whose, const parts_cover *cover)
+{
+    (void)fprintf(out, "        %s: %ld of %ld balls lie inside its parts", whose, (long)(cover->balls - cover->out),
+                  (long)cover->balls);
+    if (cover->out > 0)
+        (void)fprintf(out, " (ball %ld does not)", (long)cover->first + 1);
+    (void)fprintf(out, "; of %ld points of its parts %ld are in no ball\n", cover->points, cover->bare);
+}
+
+static void print_parts(FILE *out, const host_answer *answer)
+{
+    const parts_check *check = answer->parts;
+    host_pose at;
+    int32_t i;
+
+    (void)fprintf(out, "Parts   a check with the true shapes, by samples (%s): no proof\n", host_parts_name());
+    if (check->kind != 0 && check->places == 0)
+        (void)fprintf(out, "        %s: %ld poses looked at, apart by %.3g or more at each, and nothing skipped between%s\n",
+                      check->kind == 1 ? "path" : "candidate", check->poses, check->least,
+                      check->whole ? "" : "; NOT to its end");
+    else if (check->kind != 0)
+        (void)fprintf(out, "        %s: %ld poses looked at%s:\n", check->kind == 1 ? "path" : "candidate", check->poses,
+                      check->whole ? "" : ", NOT to its end");
+    for (i = 0; i < check->places; i++) {
+        host_from_grid(&check->place[i].at, answer->result->pivot, answer->query->dim, answer->grid->unit, &at);
+        if (check->place[i].overlaps)
+            (void)fprintf(out, "        overlap by %.3g at ", check->place[i].depth);
+        else
+            (void)fprintf(out, "        closer than %.3g at ", check->finest);
+        host_print_pose(out, &at);
+        (void)fprintf(out, ", after pose %ld\n", (long)check->place[i].leg + 1);
+    }
+    print_cover(out, "object", &check->cover[0]);
+    print_cover(out, "obstacles", &check->cover[1]);
+}
+
 void host_report_text(FILE *out, const host_answer *answer)
 {
     const cage_result *result = answer->result;
@@ -159,6 +225,12 @@ void host_report_text(FILE *out, const host_answer *answer)
         print_pivot(out, answer);
         (void)fprintf(out, "; checked again, apart from the search\n");
     }
+    if (answer->way != NULL)
+        print_way(out, answer);
+    if (answer->candidate != NULL)
+        print_candidate(out, answer);
+    if (answer->parts != NULL)
+        print_parts(out, answer);
     if (answer->margin != NULL)
         print_margin(out, answer);
     print_unit(out, answer->grid);
@@ -241,20 +313,76 @@ static void json_margin(FILE *out, const host_answer *answer)
     (void)fprintf(out, ",\n");
 }
 
-static void json_path(FILE *out, const host_answer *answer)
+/* Poses of the pivot as a list. */
+static void json_poses(FILE *out, const cage_pose *list, int32_t count, const host_answer *answer)
 {
     const cage_result *result = answer->result;
     int32_t i;
 
-    (void)fprintf(out, "  \"path\": [");
-    for (i = 0; i < result->path_count; i++) {
+    (void)fprintf(out, "[");
+    for (i = 0; i < count; i++) {
         host_pose pose;
 
-        host_from_grid(&result->path[i], result->pivot, answer->query->dim, answer->grid->unit, &pose);
+        host_from_grid(&list[i], result->pivot, answer->query->dim, answer->grid->unit, &pose);
         (void)fprintf(out, "%s\n    ", i > 0 ? "," : "");
         json_pose(out, &pose);
     }
-    (void)fprintf(out, "%s]\n", result->path_count > 0 ? "\n  " : "");
+    (void)fprintf(out, "%s]", count > 0 ? "\n  " : "");
+}
+
+/* Steps: [quaternion of the cell's middle, level, component, first pose]; collisions: [pose, depth]. */
+static void json_candidate(FILE *out, const host_answer *answer)
+{
+    const host_candidate *c = answer->candidate;
+    int32_t i;
+
+    (void)fprintf(out, "  \"candidate\": {\n  \"steps\": [");
+    for (i = 0; i < c->steps; i++)
+        (void)fprintf(out, "%s\n    [[%ld, %ld, %ld, %ld], %ld, %ld, %ld]", i > 0 ? "," : "", (long)c->step[i].q[0],
+                      (long)c->step[i].q[1], (long)c->step[i].q[2], (long)c->step[i].q[3], (long)c->step[i].level,
+                      (long)c->step[i].component, (long)c->step[i].pose);
+    (void)fprintf(out, "],\n  \"collisions\": [");
+    for (i = 0; i < c->places; i++) {
+        host_pose at;
+
+        host_from_grid(&c->place[i].at, answer->result->pivot, answer->query->dim, answer->grid->unit, &at);
+        (void)fprintf(out, "%s\n    [", i > 0 ? "," : "");
+        json_pose(out, &at);
+        (void)fprintf(out, ", %.17g]", c->place[i].depth * answer->grid->unit);
+    }
+    (void)fprintf(out, "],\n  \"path\": ");
+    json_poses(out, c->pose, c->count, answer);
+    (void)fprintf(out, "},\n");
+}
+
+/* Places: [pose, depth], the depth null where they are too close to tell. Object and obstacles: [balls, of these outside, points,
+ * of these in no ball]. */
+static void json_parts(FILE *out, const host_answer *answer)
+{
+    static const char *const kinds[] = { "null", "\"path\"", "\"candidate\"" };
+    const parts_check *check = answer->parts;
+    int32_t i;
+    int side;
+
+    (void)fprintf(out, "  \"parts\": {\n  \"proof\": false,\n  \"by\": \"%s\",\n  \"of\": %s,\n", host_parts_name(),
+                  kinds[check->kind]);
+    (void)fprintf(out, "  \"clear\": %s,\n", check->kind == 0 ? "null" : check->whole && check->places == 0 ? "true" : "false");
+    (void)fprintf(out, "  \"poses\": %ld,\n  \"least\": %.17g,\n  \"places\": [", check->poses, check->least);
+    for (i = 0; i < check->places; i++) {
+        host_pose at;
+
+        host_from_grid(&check->place[i].at, answer->result->pivot, answer->query->dim, answer->grid->unit, &at);
+        (void)fprintf(out, "%s\n    [", i > 0 ? "," : "");
+        json_pose(out, &at);
+        if (check->place[i].overlaps)
+            (void)fprintf(out, ", %.17g]", check->place[i].depth);
+        else
+            (void)fprintf(out, ", null]");
+    }
+    (void)fprintf(out, "],\n");
+    for (side = 0; side < 2; side++)
+        (void)fprintf(out, "  \"%s\": [%ld, %ld, %ld, %ld]%s\n", side == 0 ? "object" : "obstacles",
+                      (long)check->cover[side].balls, (long)check->cover[side].out, check->cover[side].points, check->cover[side].bare, side == 0 ? "," : "},");
 }
 
 void host_report_json(FILE *out, const host_answer *answer)
@@ -286,6 +414,15 @@ void host_report_json(FILE *out, const host_answer *answer)
     (void)fprintf(out, ",\n");
     if (answer->margin != NULL)
         json_margin(out, answer);
-    json_path(out, answer);
-    (void)fprintf(out, "}\n");
+    if (answer->way != NULL)
+        (void)fprintf(out, "  \"smooth\": %s,\n  \"length\": %.17g,\n  \"found_length\": %.17g,\n",
+                      answer->way->smooth ? "true" : "false", answer->way->length * answer->grid->unit,
+                      answer->way->found_length * answer->grid->unit);
+    if (answer->candidate != NULL)
+        json_candidate(out, answer);
+    if (answer->parts != NULL)
+        json_parts(out, answer);
+    (void)fprintf(out, "  \"path\": ");
+    json_poses(out, result->path, result->path_count, answer);
+    (void)fprintf(out, "\n}\n");
 }

@@ -110,6 +110,7 @@ def test_struct_fields_are_the_headers():
         "AtlasStruct": "cage_atlas",
         "ClassStruct": "cage_class",
         "BoxStruct": "cage_atlas_box",
+        "Step": "cage_step",
     }
     for struct in _native.STRUCTS:
         body = re.sub(r"\(\*(\w+)\)\([^;]*\)", r"\1", bodies[names[struct.__name__]])

@@ -181,6 +181,17 @@ class BoxStruct(ctypes.Structure):
     ]
 
 
+class Step(ctypes.Structure):
+    """cage_step."""
+
+    _fields_ = [
+        ("q", c_int32 * 4),
+        ("level", c_int32),
+        ("component", c_int32),
+        ("pose", c_int32),
+    ]
+
+
 STRUCTS = [
     Ball,
     Shape,
@@ -195,6 +206,7 @@ STRUCTS = [
     AtlasStruct,
     ClassStruct,
     BoxStruct,
+    Step,
 ]  # numbered as CAGE_STRUCT_... in cage.h
 
 _p = c_void_p  # any address: an array's, a ctypes.byref, or None
@@ -211,6 +223,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], bool]] = {
     "cage_prove_run_with": (c_int32, [_p, c_int64, _p], False),
     "cage_prove_result": (POINTER(ResultStruct), [_p], False),
     "cage_prove_region": (c_int32, [_p, _p, c_int32, _p, _p], True),
+    "cage_prove_candidate": (c_int32, [_p, _p, c_int32, _p, c_int32, _p], True),
     "cage_margin_find": (c_int32, [_p, _p, _p, _p, c_int32, _p, c_size_t, _p], False),
     "cage_path_check": (c_int32, [_p, _p, _p, _p, _p, c_int32], True),
     "cage_plan_default": (None, [_p], False),

@@ -42,6 +42,13 @@ class Question:
         if wrong:
             raise InputError(f"no option of a question: {', '.join(sorted(wrong))}")
 
+    @property
+    def proved(self) -> Scene:
+        """The scene that the answer is about: of the balls as they are, where that is insisted on."""
+        return self.scene._permit(
+            self.options.get("side", "both"), self.options.get("insist", False)
+        )[0]
+
     def key(self) -> str:
         """A hash of everything that the answer depends on, the library itself included."""
         scene, use, about, note = self.scene._permit(
@@ -123,4 +130,4 @@ def prove_many(
     finally:
         if bar is not None:
             bar.close()
-    return [Result.from_bytes(done[index]) for index in range(len(todo))]
+    return [Result.from_bytes(done[index], one.proved) for index, one in enumerate(todo)]

@@ -14,7 +14,7 @@ from .atlas import NO_CLASS, Atlas
 from .balls import Balls
 from .errors import InputError
 from .poses import Pose, PoseLike, Poses, pose as read_pose
-from .result import Result
+from .result import Path, Result
 from .scene import Scene
 
 if TYPE_CHECKING:
@@ -83,22 +83,31 @@ def scene(
     return ax
 
 
-def result(what: Scene, answer: Result, frames: int = 14, ax: Axes | None = None) -> Axes:
-    """The scene with start and goal, and the path found, as frames from violet to yellow and a
-    line."""
+def path(what: Scene, way: Path, frames: int = 14, ax: Axes | None = None) -> Axes:
+    """The scene with a path, as frames from violet to yellow, and the line of its pivot."""
     from matplotlib import colormaps
     from matplotlib.colors import to_hex
 
-    ax = scene(what, answer.start, answer.goal, ax)
-    if answer.path is not None:
-        poses = answer.path.frames(frames)
-        for i in range(len(poses)):
-            colour = to_hex(colormaps["plasma"](i / max(len(poses) - 1, 1)))
-            circles(ax, placed(shown(what, "object"), poses[i]), colour, 0.35, 2)
-        fine = answer.path.frames(200)
-        at = fine.x + (fine.matrices()[:, :2, :2] @ np.asarray(answer.pivot))
-        ax.plot(at[:, 0], at[:, 1], color="black", linewidth=1, zorder=4)
+    ax = scene(what, way.start, way.goal, ax)
+    fine = way.frames(max(200, frames))
+    some = np.unique(np.linspace(0, len(fine) - 1, frames).astype(int)) if way.curve else None
+    poses = way.frames(frames) if some is None else Poses(fine.x[some], fine.wxyz[some])
+    for i in range(len(poses)):
+        colour = to_hex(colormaps["plasma"](i / max(len(poses) - 1, 1)))
+        circles(ax, placed(shown(what, "object"), poses[i]), colour, 0.35, 2)
+    at = fine.x + (fine.matrices()[:, :2, :2] @ np.asarray(way.pivot))
+    ax.plot(at[:, 0], at[:, 1], color="black", linewidth=1, zorder=4)
     ax.autoscale_view()
+    return ax
+
+
+def result(what: Scene, answer: Result, frames: int = 14, ax: Axes | None = None) -> Axes:
+    """The scene with start and goal, and the path found, as frames from violet to yellow and a
+    line."""
+    if answer.path is not None:
+        ax = path(what, answer.path, frames, ax)
+    else:
+        ax = scene(what, answer.start, answer.goal, ax)
     ax.set_title(f"{answer.verdict}: {answer.reason}", fontsize=9)
     return ax
 

@@ -7,7 +7,7 @@ import threading
 import time
 from collections.abc import Callable
 from types import TracebackType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,9 @@ from .errors import CageError, InputError, OutOfMemoryError
 from .grid import Grid
 from .poses import Ints, pose_of
 from .result import Path, Result, Statistics, Verdict
+
+if TYPE_CHECKING:
+    from .scene import Scene
 
 PORTION = 0.05  # seconds that a call into the library takes at most, if its steps are short
 ALONE = 0.03  # seconds before threads are started: most proofs are done by then
@@ -114,7 +117,9 @@ class Proof:
         about: str,
         note: str,
         memory: int | None = None,
+        scene: Scene | None = None,
     ) -> None:
+        self.scene = scene
         self.grid, self.start, self.goal, self.limits = grid, start, goal, limits
         self.about, self.note = about, note
         self.most = MEMORY if memory is None else int(memory)
@@ -212,7 +217,15 @@ class Proof:
             address = ctypes.cast(raw.path, ctypes.POINTER(ctypes.c_int32))
             rows = np.ctypeslib.as_array(address, (count, 7)).copy()
             rows.setflags(write=False)
-            path = Path(rows, (raw.pivot[0], raw.pivot[1], raw.pivot[2]), grid.unit, grid.dim)
+            path = Path(
+                rows,
+                (raw.pivot[0], raw.pivot[1], raw.pivot[2]),
+                grid.unit,
+                grid.dim,
+                tuple(self.start.tolist()),
+                None if self.goal is None else tuple(self.goal.tolist()),
+                scene=self.scene,
+            )
             if not self._certified(raw):
                 raise CageError(
                     "the path found does not pass the independent check. This is a bug; "

@@ -5,11 +5,17 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .errors import InputError
 from .poses import Ints, Pose, Poses, from_grid, pose_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from .scene import Scene
 
 
 class Verdict(IntEnum):
@@ -58,13 +64,22 @@ class Path:
     """A certified path: from each pose to the next the object moves straight without turning, or
     turns the shorter way about its point `pivot` (metres, in the object's frame), which stays.
 
-    `grid` has the poses of the pivot as exact integers: rows x, y, z, qw, qx, qy, qz.
+    Smoothed (`curve` is True) it does both at once, its poses evenly apart in time: from row to row
+    the pivot goes on the cubic whose slope at a row is half the difference of its neighbours (at
+    an end: the difference to the one), the object turning at a constant rate.
+
+    `grid` has the poses of the pivot as exact integers: rows x, y, z, qw, qx, qy, qz. `scene` is
+    the one it was found in, None if it was read from bytes.
     """
 
     grid: Ints
     pivot_grid: tuple[int, int, int]
     unit: float
     dim: int
+    start_grid: tuple[int, ...]
+    goal_grid: tuple[int, ...] | None
+    curve: bool = False
+    scene: Scene | None = field(default=None, repr=False)
 
     def __len__(self) -> int:
         return len(self.grid)
@@ -73,8 +88,47 @@ class Path:
         return (
             isinstance(other, Path)
             and np.array_equal(self.grid, other.grid)
-            and (self.pivot_grid, self.unit, self.dim) == (other.pivot_grid, other.unit, other.dim)
+            and (self.pivot_grid, self.unit, self.dim, self.curve)
+            == (other.pivot_grid, other.unit, other.dim, other.curve)
         )
+
+    def smooth(self, scene: Scene | None = None) -> Path:
+        """A shorter path without corners between the same ends: moves and turns together.
+
+        Found by descent in floating point, and certified as a whole curve by the C library, in
+        exact integers; the path itself where none better is certified. scene: where it was read
+        from bytes, the one it belongs to."""
+        from .smoothing import smooth
+
+        return smooth(self, scene)
+
+    def plot(self, ax: Axes | None = None, frames: int = 14, scene: Scene | None = None) -> Axes:
+        """The path in the plane with matplotlib, over its scene."""
+        from .plot import path
+
+        return path(self._scene(scene), self, frames, ax)
+
+    def animate(self, frames: int = 40, scene: Scene | None = None) -> Any:
+        """A plotly figure in which the object runs along the path, in the plane or in space."""
+        from .view import animation
+
+        return animation(self._scene(scene), self, frames)
+
+    def _scene(self, scene: Scene | None) -> Scene:
+        found = self.scene if scene is None else scene
+        if found is None:
+            raise InputError("this path was read from bytes: say of which scene it is, scene=...")
+        return found
+
+    @property
+    def start(self) -> Pose:
+        """Where it begins."""
+        return pose_of(self.start_grid, self.dim, self.unit)
+
+    @property
+    def goal(self) -> Pose | None:
+        """Where it ends; None: far away."""
+        return None if self.goal_grid is None else pose_of(self.goal_grid, self.dim, self.unit)
 
     @property
     def pivot(self) -> tuple[float, ...]:
@@ -164,15 +218,24 @@ class Result:
         return json.dumps(self.to_dict(), sort_keys=True, separators=(",", ":")).encode()
 
     @classmethod
-    def from_bytes(cls, data: bytes) -> Result:
-        """The result that to_bytes wrote (peak_bytes and seconds are 0)."""
+    def from_bytes(cls, data: bytes, scene: Scene | None = None) -> Result:
+        """The result that to_bytes wrote (peak_bytes and seconds are 0). scene: of its path."""
         raw = json.loads(data)
         dim, unit = int(raw["dim"]), float(raw["unit"])
         pivot = tuple(int(value) for value in raw["pivot"]) + (0,) * (3 - dim)
         path = None
         if raw["path"] is not None:
             grid = np.array(raw["path"], dtype=np.int32).reshape(-1, 7)
-            path = Path(grid, (pivot[0], pivot[1], pivot[2]), unit, dim)
+            goal = None if raw["goal"] is None else tuple(raw["goal"])
+            path = Path(
+                grid,
+                (pivot[0], pivot[1], pivot[2]),
+                unit,
+                dim,
+                tuple(raw["start"]),
+                goal,
+                scene=scene,
+            )
         stats: dict[str, Any] = {
             name: tuple(value) if isinstance(value, list) else value
             for name, value in raw["statistics"].items()

@@ -72,6 +72,10 @@ class Scene:
                 unit *= 2
         raise GridError("the scene fits no grid", _native.OUT_OF_RANGE)
 
+    def at_unit(self, unit: float) -> Grid:
+        """The scene on the grid of that unit."""
+        return self._at(unit, None)
+
     def _at(self, unit: float, finer: int | None) -> Grid:
         made = self._grids.get(unit)
         if made is not None:
@@ -186,7 +190,7 @@ class Scene:
         scene, use, about, note = self._permit(side, insist)
         made, first, last = scene._question(start, goal)
         limits = self._limits(use, start_level, max_level, max_cells)
-        return Proof(made, first, last, limits, about, note, memory)
+        return Proof(made, first, last, limits, about, note, memory, scene)
 
     def prove(
         self,

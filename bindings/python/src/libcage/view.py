@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from .balls import Balls
 from .plot import placed, shown
-from .poses import Pose, PoseLike, pose as read_pose
-from .result import Result
+from .poses import Pose, PoseLike, Poses, pose as read_pose
+from .result import Path, Result
 from .scene import Scene
 
 OBSTACLE, START, GOAL = "#9a9a9a", "#2a6fbb", "#e07b00"
@@ -121,7 +121,15 @@ def figure(
     else:
         made.update_yaxes(scaleanchor="x", scaleratio=1)
     if answer is not None and answer.path is not None:
-        _animate(made, scene, part, answer, frames, draw)
+        _animate(made, scene, part, answer.path, frames, draw)
+    return made
+
+
+def animation(scene: Scene, path: Path, frames: int = 40) -> Any:
+    """A plotly figure of a path alone, smoothed or not."""
+    made = figure(scene, start=path.start, goal=path.goal)
+    draw = _mesh if scene.dim == 3 else _discs
+    _animate(made, scene, shown(scene, "object"), path, frames, draw)
     return made
 
 
@@ -129,10 +137,12 @@ def _at(part: Balls, pose: Pose) -> NDArray[np.float64]:
     return placed(part, pose)
 
 
-def _animate(made: Any, scene: Scene, part: Balls, answer: Result, frames: int, draw: Any) -> None:
+def _animate(made: Any, scene: Scene, part: Balls, path: Path, frames: int, draw: Any) -> None:
     """The object runs along the path; a slider, a button. Axes are held to all of it."""
-    assert answer.path is not None
-    poses = answer.path.frames(frames)
+    poses = path.frames(frames)
+    if path.curve:  # it has many poses, evenly apart in time
+        some = np.unique(np.linspace(0, len(poses) - 1, frames).astype(int))
+        poses = Poses(poses.x[some], poses.wxyz[some])
     rows = [placed(part, poses[i]) for i in range(len(poses))]
     axes = "xyz"[: scene.dim]
     keep = ("type", *axes)
@@ -146,7 +156,7 @@ def _animate(made: Any, scene: Scene, part: Balls, answer: Result, frames: int, 
         }
         for i, row in enumerate(rows)
     ]
-    line = poses.x + poses.matrices()[:, : scene.dim, : scene.dim] @ np.asarray(answer.pivot)
+    line = poses.x + poses.matrices()[:, : scene.dim, : scene.dim] @ np.asarray(path.pivot)
     trace = {
         "type": "scatter3d" if scene.dim == 3 else "scatter",
         "mode": "lines",
