@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from .frozen import frozen_array
 from .poses import Ints, Pose, Poses, from_grid, pose_of
 
 
@@ -171,7 +172,7 @@ class Result:
         pivot = tuple(int(value) for value in raw["pivot"]) + (0,) * (3 - dim)
         path = None
         if raw["path"] is not None:
-            grid = np.array(raw["path"], dtype=np.int32).reshape(-1, 7)
+            grid = frozen_array(np.array(raw["path"], dtype=np.int32).reshape(-1, 7))
             path = Path(grid, (pivot[0], pivot[1], pivot[2]), unit, dim)
         stats: dict[str, Any] = {
             name: tuple(value) if isinstance(value, list) else value
