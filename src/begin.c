@@ -224,7 +224,7 @@ static void set_ends(struct cage_proof *proof, const cage_pose *start, const cag
 /* Half turns that take the object to itself. The pose (x, R g) of such a turn g touches what (x, R) touches, so g maps free space
  * to itself and the way out of one pose to that of the other: a pose is caged iff it is up to these turns, and a slice
  * serves for R and R g. (With a goal it is not asked: a way to an image of the goal is none to the goal.) */
-static int32_t find_turns(struct cage_proof *proof)
+static int32_t find_half_turns(struct cage_proof *proof)
 {
     struct cage_graph *graph = &proof->graph;
     graph->turns = 1;
@@ -256,7 +256,7 @@ static int32_t begin(struct cage_proof *proof, const cage_pose *start, const cag
     if (!proof->graph.cell)
         return CAGE_ERROR_MEMORY;
     set_ends(proof, start, goal);
-    int32_t error = find_turns(proof);
+    int32_t error = find_half_turns(proof);
     if (error != CAGE_OK)
         return error;
     int32_t reach = scene->dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;

@@ -182,6 +182,14 @@ static int32_t centre_power(const struct cage_centre *centre)
     return cage_norm_compare(centre->offset, cage_i128_scale(centre->denominator, centre->base->r));
 }
 
+bool cage_centre_is_wide(const struct cage_centre *centre, int32_t radius)
+{
+    int64_t square = (int64_t)centre->base->r * centre->base->r + 2 * (int64_t)radius + 1; /* < 2^59 */
+    int64_t root = (int64_t)cage_u128_root(cage_i128_of(square)); /* < r + 2^15.6; times the denominator < 2^93, in space 2^105 */
+    root += root * root < square;
+    return cage_norm_compare(centre->offset, cage_i128_scale(centre->denominator, root)) > 0;
+}
+
 /* No point in common: squares <= 12 M^2 in space. */
 static CAGE_INLINE bool are_apart(const struct cage_site *a, const struct cage_site *b)
 {

@@ -77,7 +77,7 @@ int32_t cage_slice_locate(const struct cage_slice *slice, const int32_t p[3])
 }
 
 /* Round the deep orthocentre of a component to the grid; it is known if it still lies in it. */
-static void find_point(const struct cage_slice *slice, int32_t component)
+static void find_point(const struct cage_slice *slice, int32_t component, int32_t largest)
 {
     struct cage_region *region = &slice->region[component];
     region->known = 0;
@@ -90,7 +90,8 @@ static void find_point(const struct cage_slice *slice, int32_t component)
     if (!cage_centre_point(slice->t.dim, &centre, region->point))
         return;
     int32_t s = cage_delaunay_locate(&slice->t, region->point, region->deep);
-    region->known = slice->label[s] == component && cage_slice_clear(slice, region->point);
+    region->known = slice->label[s] == component &&
+                    (cage_centre_is_wide(&centre, largest) || cage_slice_clear(slice, region->point));
 }
 
 /* The top of the balls' bounding box is off every ball: centres and radii add up to less than CAGE_REACH. */
@@ -182,11 +183,14 @@ static int32_t make(struct cage_arena *arena, const struct cage_side *side, cons
     out->region = cage_arena_take(arena, (size_t)components.count, sizeof *out->region);
     if (!out->region)
         return CAGE_ERROR_MEMORY;
+    int32_t largest = 0;
+    for (int32_t i = side->dim + 1; i < out->t.sites; i++)
+        largest = out->t.site[i].r > largest ? out->t.site[i].r : largest;
     for (int32_t k = 0; k < components.count; k++) {
         out->region[k].deep = components.deep[k];
         out->region[k].size = 0;
         if (k != CAGE_OUTSIDE)
-            find_point(out, k);
+            find_point(out, k, largest);
     }
     find_outside_point(out);
     for (int32_t s = 0; s < out->t.simplices; s++)

@@ -22,7 +22,13 @@ def test_what_is_written_comes_back_to_the_last_bit(tmp_path, suffix, kind, dim)
     again = read(tmp_path / f"b{suffix}")
     assert again.rows.tobytes() == balls.rows.tobytes()
     assert again.kind == ("unknown" if suffix == ".npy" else kind)
-    assert read(tmp_path / f"b{suffix}", kind="outer").kind == "outer"
+    for said in ("inner", "outer", "exact"):
+        if again.kind in ("unknown", said):
+            assert read(tmp_path / f"b{suffix}", kind=said).kind == said
+        else:  # the file's own words are not overruled in passing
+            with pytest.raises(KindError, match="as_kind"):
+                read(tmp_path / f"b{suffix}", kind=said)
+            assert read(tmp_path / f"b{suffix}").as_kind(said).kind == said
 
 
 def test_c_header_is_on_the_safe_side_and_compiles(tmp_path):

@@ -269,11 +269,8 @@ def test_inner_balls_prove_no_path():
     with pytest.raises(KindError):
         scene.prove((0.5, 0, 0), side="outer")
     assert scene.atlas(3).ask((0.5, 0, 0)) is Verdict.UNDEFINED
-    wrong = Scene(
-        Solid(Balls(DISC, "outer"), Balls(DISC, "outer")), FINGERS
-    )  # a label in the wrong place
     with pytest.raises(KindError):
-        wrong.prove((0, 0, 0), side="inner")
+        Solid(Balls(DISC, "outer"), Balls(DISC, "outer"))  # a label in the wrong place
     with pytest.raises(KindError):
         Scene(Balls(DISC, "inner"), Balls(FINGERS, "outer")).prove((0, 0, 0))
 

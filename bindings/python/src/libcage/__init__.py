@@ -9,7 +9,7 @@ nearest; every verdict but UNDEFINED is a theorem about these, decided in exact 
 
 from ._native import ABI
 from .atlas import NO_CLASS, Atlas, Class
-from .balls import Balls, Solid
+from .balls import Balls, Solid, union
 from .errors import (
     AtlasError,
     CageError,
@@ -67,6 +67,7 @@ __all__ = [
     "prove_many",
     "read",
     "read_links",
+    "union",
     "verify_balls",
     "verify_cover",
     "write",

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import sys
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from . import __version__, formats, poses
-from .balls import KINDS, Solid, solid
-from .errors import CageError, InputError
+from .balls import KINDS, Solid, solid, union
+from .errors import CageError, InputError, SolidError
 from .scene import Scene
 
 MESHES = {".stl", ".obj", ".ply", ".off", ".glb", ".3mf"}
@@ -42,7 +41,8 @@ def parser() -> argparse.ArgumentParser:
         type=float,
         default=1.0,
         help="metres in a unit of length of meshes: "
-        "0.001 for millimetres. Files of balls are taken as they are",
+        "0.001 for millimetres (vertices are then rounded to doubles once). Files of balls are "
+        "taken as they are",
     )
     made.add_argument("--balls", type=int, default=100, help="inner balls for a mesh, at most")
     made.add_argument(
@@ -51,7 +51,12 @@ def parser() -> argparse.ArgumentParser:
         metavar="M",
         help="how far outer balls may reach beyond a mesh (default: a twentieth of its size)",
     )
-    made.add_argument("--kind", choices=KINDS, help="what the balls in files are of the solid")
+    for which in ("object", "obstacle"):
+        made.add_argument(
+            f"--{which}-kind",
+            choices=KINDS,
+            help=f"what the balls in the {which}'s file are of the solid, where it does not say",
+        )
     made.add_argument("--link", help="the link to take of the object's file, where it has several")
     made.add_argument(
         "--insist", action="store_true", help="ask about balls that prove nothing of a solid"
@@ -71,33 +76,54 @@ def parser() -> argparse.ArgumentParser:
     return made
 
 
-def read_solid(path: str, given: argparse.Namespace, link: str | None = None) -> tuple[Solid, str]:
+def read_mesh(path: Path, scale: float) -> Any:
+    """The triangles of a file as they are there: nothing is merged, mended or left out."""
+    import trimesh
+
+    if not 0 < scale < math.inf:
+        raise InputError(f"--scale {scale:g}: a positive number is wanted")
+    if not path.is_file():
+        raise InputError(f"{path}: no such file")
+    try:
+        mesh: Any = trimesh.load_mesh(path, process=False)
+        return trimesh.Trimesh(mesh.vertices * scale, mesh.faces, process=False)
+    except Exception as error:  # whatever the reader of that format stumbles over
+        raise InputError(f"{path}: no mesh: {error or type(error).__name__}") from None
+
+
+def read_solid(
+    path: str, given: argparse.Namespace, kind: str | None = None, link: str | None = None
+) -> tuple[Solid, str]:
     """The solid in a file, and what was made of it, in words."""
     place = Path(path)
     if place.suffix.lower() not in MESHES:
-        balls = formats.read(place, given.kind, link)
+        balls = formats.read(place, kind, link)
         return solid(balls), f"{path}: {balls}"
-    import trimesh
-
+    if kind is not None or link is not None:
+        raise InputError(f"{path}: a mesh has no kind and no links, these options are for balls")
     from .shapes import fit
 
-    mesh: Any = trimesh.load_mesh(place)
-    mesh.apply_scale(given.scale)
-    made = fit(mesh, given.balls, outer_tolerance=given.outer_tolerance)
+    mesh = read_mesh(place, given.scale)
+    try:
+        made = fit(mesh, given.balls, outer_tolerance=given.outer_tolerance)
+    except SolidError as error:
+        raise SolidError(f"{path}: {error}") from None
     return made.solid(), f"{path}: {made}"
 
 
 def join(solids: list[Solid]) -> Solid:
     """The union of several solids, of the same kinds."""
-    from .balls import Balls
 
     def side(parts: list[Any]) -> Any:
         if any(part is None for part in parts):
             return None
         kinds = {part.kind for part in parts}
         if len(kinds) > 1:
-            raise InputError(f"obstacles of several kinds: {', '.join(sorted(kinds))}; say --kind")
-        return Balls(np.concatenate([part.rows for part in parts]), kinds.pop())
+            raise InputError(
+                f"obstacles of several kinds: {', '.join(sorted(kinds))}; say --obstacle-kind "
+                "where the files do not"
+            )
+        return union(parts)
 
     if len({one.dim for one in solids}) > 1:
         raise InputError("the obstacles are of different dimensions")
@@ -126,11 +152,13 @@ def read_pose(text: str, dim: int) -> Any:
 
 def run(given: argparse.Namespace) -> None:
     """Everything after the options."""
-    part, said = read_solid(given.object, given, given.link)
-    others = [read_solid(path, given) for path in given.obstacles]
+    part, said = read_solid(given.object, given, given.object_kind, given.link)
+    others = [read_solid(path, given, given.obstacle_kind) for path in given.obstacles]
     if not given.quiet:
         print("\n".join([said, *(words for _, words in others)]), file=sys.stderr)
     scene = Scene(part, join([made for made, _ in others]))
+    if given.png and scene.dim != 2:
+        raise InputError("--png draws in the plane; in space see --html")
     start = read_pose(given.start, scene.dim)
     goal = None if given.goal is None else read_pose(given.goal, scene.dim)
     limits = {"max_cells": given.max_cells, "max_level": given.max_level, "insist": given.insist}
@@ -178,7 +206,7 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         run(given)
     except (CageError, OSError, ImportError) as error:
-        print(f"libcage: {error}", file=sys.stderr)
+        print(f"libcage: {' '.join(str(error).split())}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print("libcage: stopped", file=sys.stderr)

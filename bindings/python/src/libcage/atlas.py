@@ -7,13 +7,15 @@ import math
 import os
 import struct
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native, grid as grids, surveys
+from .balls import LARGEST
 from .errors import AtlasError, InputError, PoseError
+from .frozen import Frozen, whole
 from .pool import ExecutorLike
 from .poses import (
     Ints,
@@ -25,7 +27,7 @@ from .poses import (
     poses as read_poses,
 )
 from .poses import Poses, to_grid
-from .proof import MEMORY, Crew, reachable
+from .proof import Crew, most_bytes, reachable
 from .result import Verdict
 
 if TYPE_CHECKING:
@@ -54,33 +56,43 @@ class Class:
     pose: Pose | None
 
 
-class Atlas:
+class Atlas(Frozen):
     """An opened atlas: bytes that are read in place. Many threads may ask at once; it can be
     pickled.
 
     `about` says what its answers are about; `unit` is the grid's unit in metres.
     """
 
+    __slots__ = ("unit", "dim", "insisted", "_bytes", "_struct", "__weakref__")
+    unit: float
+    dim: int
+    insisted: bool
+    _bytes: NDArray[np.uint8]
+    _struct: _native.AtlasStruct
+
     def __init__(self, data: bytes | bytearray | memoryview | NDArray[np.uint8]) -> None:
-        self._bytes = np.frombuffer(bytes(data), dtype=np.uint8)
-        self._struct = _native.AtlasStruct()
-        if not len(self._bytes):
+        try:
+            kept = np.frombuffer(bytes(memoryview(cast(Any, data))), dtype=np.uint8)
+        except TypeError:
+            raise AtlasError(f"an atlas is bytes, not {type(data).__name__}") from None
+        opened = _native.AtlasStruct()
+        if not len(kept):
             raise AtlasError("no bytes: this is not an atlas")
         _native.lib.cage_atlas_open(
-            ctypes.byref(self._struct), ctypes.c_void_p(self._bytes.ctypes.data), len(self._bytes)
+            ctypes.byref(opened), ctypes.c_void_p(kept.ctypes.data), len(kept)
         )
-        unit: float = struct.unpack("=d", bytes(self._struct.note))[0]
+        unit: float = struct.unpack("=d", bytes(opened.note))[0]
         # The unit is the caller's note in the file. Python writes it negative where the balls
         # prove nothing about solids, which the command and older readers refuse.
-        self.insisted = unit < 0
         try:
-            self.unit = grids.check_unit(abs(unit))
+            known = grids.check_unit(abs(unit))
         except InputError:
             raise AtlasError(
                 "the atlas has no unit that is a power of two: it was made by other "
                 "means, see make and the command cage atlas"
             ) from None
-        self.dim = int(self._struct.dim)
+        dim = int(opened.dim)
+        self._set(_bytes=kept, _struct=opened, insisted=unit < 0, unit=known, dim=dim)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Atlas, (self.to_bytes(),)
@@ -142,8 +154,9 @@ class Atlas:
         """Verdicts as an int32 array, one for each pose: can the object leave from there, or get to
         the goal? Compare with Verdict.CAGED and the like. UNDEFINED: ask Scene.prove.
 
-        poses, goals: rows x, y, theta in metres and radians; (n, 4, 4) matrices; Poses. They are
-        rounded to the grid. goals: as many as poses, or one for all.
+        poses, goals: rows x, y, theta in metres and radians; (n, 4, 4) matrices; Poses. The answers
+        are about these poses rounded to the atlas's grid, places by up to half a `unit`: rounded()
+        tells which they are. goals: as many as poses, or one for all.
         """
         rows = self._rows(poses)
         ends = None
@@ -163,8 +176,12 @@ class Atlas:
         )
         return _checked(out, 0)
 
+    def rounded(self, poses: PosesLike) -> Poses:
+        """The poses that query, ask and locate answer about when they are asked about these."""
+        return from_grid(self._rows(poses), self.dim, self.unit)
+
     def ask(self, pose: PoseLike, goal: PoseLike | None = None) -> Verdict:
-        """The verdict for one pose."""
+        """The verdict for one pose, rounded to the grid as in query."""
         ends = None if goal is None else _one(read_pose(goal, self.dim))
         return Verdict(int(self.query(_one(read_pose(pose, self.dim)), ends)[0]))
 
@@ -250,14 +267,17 @@ def make(
         raise InputError(
             "budget: cells are cut where the two sides disagree, and one is missing. " + note
         )
+    if not 0 <= far <= LARGEST:
+        raise InputError(f"far: 0 to {LARGEST:g} metres, not {far!r}")
     made = chosen.grid(max(far, scene._reach, scene._object_reach), 4.0)
     plan = _native.Plan()
     _native.lib.cage_plan_default(ctypes.byref(plan))
-    plan.side, plan.max_cells = use, int(budget)
-    plan.level = -1 if level is None else int(level)
+    plan.side, plan.max_cells = use, whole(budget, "budget", 0, 1 << 24)
+    most_level = _native.LEVEL_MAX[scene.dim]
+    plan.level = -1 if level is None else whole(level, "level", 0, most_level)
     unit = -made.unit if chosen is not scene else made.unit
     plan.note[:] = struct.unpack("=ii", struct.pack("=d", unit))
-    most = MEMORY if memory is None else int(memory)
+    most = most_bytes(memory)
     size = int(_native.lib.cage_survey_size(ctypes.byref(made.struct), ctypes.byref(plan)))
     if size == 0:
         raise InputError(

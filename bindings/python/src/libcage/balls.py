@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Union
 
@@ -9,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import InputError, KindError
+from .frozen import Frozen, frozen_array, is_masked
 
 KINDS = ("inner", "outer", "exact", "unknown")
 LARGEST = 1e30  # metres; beyond it, squares of lengths leave the range of doubles
 
 
-class Balls:
+class Balls(Frozen):
     """Balls as rows `x y r` or `x y z r` in metres, in the frame of the object or of the world.
 
     `kind` says what they are of the solid that they stand for:
@@ -25,19 +27,34 @@ class Balls:
       published sphere models of robots are of this kind;
     * `unknown`: nobody has checked, and nothing can be proved about the solid.
 
-    The rows are copied, and read-only: a proof that runs must not see them change.
+    Without `kind` rows are `exact`, and Balls keep the kind and the source that they have; another
+    kind for them is an error, see as_kind. The rows are copied and cannot be changed: a proof that
+    runs must not see them change. `rows` is an array, which has no kind: whoever makes Balls or a
+    Scene of such an array says anew what the balls are, and `exact` where nothing else is said.
+
+    balls[...] (a slice, a mask, an array of indices) are some of the balls, balls + others the
+    union of two sets in one frame, of the weakest kind; see also union.
     """
 
-    __slots__ = ("rows", "kind", "source")
+    __slots__ = ("rows", "kind", "source", "__weakref__")
+    rows: NDArray[np.float64]
+    kind: str
+    source: str
+    __iter__ = None
+    __array_ufunc__ = None  # array + balls is an error, too
 
-    def __init__(self, rows: Any, kind: str = "exact", source: str = "") -> None:
-        if isinstance(rows, Balls):
-            rows = rows.rows
-        if kind not in KINDS:
+    def __init__(self, rows: Any, kind: str | None = None, source: str | None = None) -> None:
+        if kind is not None and (not isinstance(kind, str) or kind not in KINDS):
             raise KindError(f"kind is one of {', '.join(KINDS)}, not {kind!r}")
-        self.rows: NDArray[np.float64] = _checked(rows)
-        self.kind = kind
-        self.source = source
+        if isinstance(rows, Balls):
+            if kind is not None and kind != rows.kind:
+                raise KindError(
+                    f"these balls are {rows.kind}, not {kind}; if you know better say so: "
+                    f"balls.as_kind({kind!r})"
+                )
+            kind, source = rows.kind, rows.source if source is None else source
+            rows = rows.rows
+        self._set(rows=_checked(rows), kind=kind or "exact", source=source or "")
 
     @property
     def dim(self) -> int:
@@ -58,6 +75,26 @@ class Balls:
         """The same balls, of another kind: you vouch for it."""
         return Balls(self.rows, kind, self.source)
 
+    def __getitem__(self, which: Any) -> Balls:
+        """Some of the balls: a slice, a mask, or an array of indices. Inner balls stay inner and
+        exact ones are the smaller solid; outer balls that are not all there need not cover, and
+        are `unknown`."""
+        if not isinstance(which, (slice, list, np.ndarray)) or is_masked(which):
+            raise TypeError("balls[...] takes a slice, a mask or an array of indices")
+        index = np.arange(len(self))[which]
+        if index.ndim != 1:
+            raise TypeError("balls[...] takes one mask or one array of indices")
+        kind = self.kind
+        if kind == "outer" and len(np.unique(index)) < len(self):
+            kind = "unknown"
+        return Balls(self.rows[index], kind, self.source)
+
+    def __add__(self, other: object) -> Balls:
+        return union([self, other]) if isinstance(other, Balls) else NotImplemented
+
+    def __array__(self, *_: Any, **__: Any) -> Any:
+        raise TypeError("an array has no kind: balls.rows is one, if the kind does not matter")
+
     def __len__(self) -> int:
         return len(self.rows)
 
@@ -69,9 +106,31 @@ class Balls:
         return Balls, (np.array(self.rows), self.kind, self.source)
 
 
-def _checked(rows: Any) -> NDArray[np.float64]:
-    """A read-only copy of the rows as float64, without rounding, or an error."""
-    array = np.asarray(rows)
+def union(sets: Iterable[Balls]) -> Balls:
+    """All balls of several sets, which stand for the union of their solids, in one frame.
+
+    The kind is what holds for the union: of inner and exact sets inner, of outer and exact sets
+    outer, else of several kinds unknown.
+    """
+    given = list(sets)
+    if not given or not all(isinstance(one, Balls) for one in given):
+        raise InputError("a union is made of one or more Balls")
+    if len({one.dim for one in given}) > 1:
+        raise InputError("balls of different dimensions have no union")
+    kinds = {one.kind for one in given} - {"exact"}
+    kind = "exact" if not kinds else kinds.pop() if len(kinds) == 1 else "unknown"
+    sources = list(dict.fromkeys(one.source for one in given if one.source))
+    return Balls(np.concatenate([one.rows for one in given]), kind, ", ".join(sources))
+
+
+def exact_rows(rows: Any) -> NDArray[np.float64]:
+    """A copy as float64 of an array of shape (n, 3) or (n, 4), without rounding, or an error."""
+    if is_masked(rows):
+        raise InputError("a masked array: say which balls you mean, array.compressed() or filled()")
+    try:
+        array = np.asarray(rows)
+    except (ValueError, TypeError):
+        raise InputError("balls are rows of one length: x y r or x y z r") from None
     if array.ndim != 2 or array.shape[1] not in (3, 4):
         raise InputError(
             f"balls are rows x y r or x y z r: an array of shape (n, 3) or (n, 4), not "
@@ -88,6 +147,12 @@ def _checked(rows: Any) -> NDArray[np.float64]:
                 f"numbers of type {array.dtype} that float64 does not hold exactly; round "
                 "them yourself, inner balls inward and outer balls outward"
             )
+    return result
+
+
+def _checked(rows: Any) -> NDArray[np.float64]:
+    """A copy of the rows as float64 that cannot be written to, without rounding, or an error."""
+    result = exact_rows(rows)
     if not np.isfinite(result).all():
         raise InputError(f"ball {int(np.argmin(np.isfinite(result).all(axis=1)))}: NaN or infinite")
     if (abs(result) > LARGEST).any():
@@ -97,13 +162,16 @@ def _checked(rows: Any) -> NDArray[np.float64]:
             f"ball {int(np.argmax(result[:, -1] < 0))}: the radius is negative; files of "
             "cuRobo mark balls that are switched off like that: leave them out"
         )
-    result.setflags(write=False)
-    return result
+    made: NDArray[np.float64] = frozen_array(result)
+    return made
 
 
 @dataclass(frozen=True)
 class Solid:
-    """A rigid solid: balls inside it, balls that cover it, or both. `exact` balls are both."""
+    """A rigid solid: balls inside it, balls that cover it, or both. `exact` balls are both.
+
+    `inner` takes balls of kind inner, exact or unknown, `outer` of kind outer, exact or unknown;
+    unknown ones prove nothing unless the user insists."""
 
     inner: Balls | None
     outer: Balls | None
@@ -111,8 +179,22 @@ class Solid:
     def __post_init__(self) -> None:
         if self.inner is None and self.outer is None:
             raise KindError("a solid needs inner balls, outer balls, or both")
+        for balls, wrong in ((self.inner, "outer"), (self.outer, "inner")):
+            if balls is not None and not isinstance(balls, Balls):
+                raise InputError("a Solid is made of Balls, which say what they are")
+            if balls is not None and balls.kind == wrong:
+                raise KindError(
+                    f"{wrong} balls given as the {'outer' if wrong == 'inner' else 'inner'} ones"
+                )
         if self.inner is not None and self.outer is not None and self.inner.dim != self.outer.dim:
             raise InputError("the inner balls and the outer ones are of different dimensions")
+        if (
+            self.inner is not None
+            and self.outer is not None
+            and self.inner.kind == self.outer.kind == "exact"
+            and not np.array_equal(self.inner.rows, self.outer.rows)
+        ):
+            raise KindError("two different sets of balls cannot both be the solid")
 
     @property
     def dim(self) -> int:
@@ -126,6 +208,10 @@ class Solid:
         balls = self.inner if side == "inner" else self.outer
         return balls is not None and balls.kind in (side, "exact")
 
+    def is_exact(self) -> bool:
+        """Are the balls the solid?"""
+        return all(b is not None and b.kind == "exact" for b in (self.inner, self.outer))
+
     def kinds(self) -> str:
         """What it is made of, in words."""
         given = [balls.kind for balls in (self.inner, self.outer) if balls is not None]
@@ -136,7 +222,7 @@ SolidLike = Union[Solid, Balls, NDArray[Any], list[Any], tuple[Any, ...]]
 
 
 def solid(value: Any) -> Solid:
-    """A Solid from a Solid, Balls, an array of rows (which then are the solid), a Fit,
+    """A Solid from a Solid, Balls, an array of rows (which you say to be the solid), a Fit,
     or a mesh or polygon, for which balls are made with the default settings."""
     if isinstance(value, Solid):
         return value

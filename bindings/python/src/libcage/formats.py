@@ -1,35 +1,38 @@
 """Files of balls: xyzr, npy, own JSON and C headers, and the sphere models that robot tools write.
 
 A file rarely says what its balls are of the solid, so they come as kind `unknown` unless the file
-is one that libcage wrote, or you say so: read(path, kind="outer"). Lengths are taken as they are,
-in metres."""
+is one that libcage wrote, or you say so: read(path, kind="outer"). A file that says what they are
+is not contradicted: see Balls.as_kind. Lengths are taken as they are, in metres. What a reader does
+not understand is an error, never left out."""
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import re
-import xml.etree.ElementTree as ElementTree
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Union
 
 import numpy as np
 
 from . import _native
-from .balls import Balls, to_grid
-from .errors import InputError
+from .balls import KINDS, Balls, to_grid
+from .errors import InputError, KindError
 from .grid import check_unit
+from .models import Found, curobo, number, one_of_each, robot_json, srdf, sphere_tree, urdf
 
 PathLike = Union[str, "os.PathLike[str]"]
 FORMAT = "libcage balls"
 
 
 def read(path: PathLike, kind: str | None = None, link: str | None = None) -> Balls:
-    """The balls of a file, of one link where it has several. kind: what they are, if you know.
+    """The balls of a file, of one link where it has several. kind: what they are, if you know and
+    the file does not say.
 
-    xyzr, txt (rows x y r or x y z r); npy; json (of libcage, or of foam); yml, yaml (cuRobo); urdf
-    with spheres; srdf; sph (sphere trees: the leaves)."""
+    xyzr, txt (rows x y r or x y z r); npy; json (of libcage, or of foam: the finest level); yml,
+    yaml (cuRobo: without the balls of negative radius, which are switched off there, and without
+    collision_sphere_buffer); urdf with spheres; srdf; sph (sphere trees: the leaves)."""
     links = read_links(path, kind)
     if link is not None:
         if link not in links:
@@ -44,202 +47,104 @@ def read(path: PathLike, kind: str | None = None, link: str | None = None) -> Ba
 
 def read_links(path: PathLike, kind: str | None = None) -> dict[str, Balls]:
     """The balls of each link of a file, in the link's frame. A file without links has one, named
-    ''."""
+    ''. Links without collision shapes are left out."""
     place = Path(path)
     readers = {
         ".npy": _npy,
         ".json": _json,
-        ".yml": _curobo,
-        ".yaml": _curobo,
-        ".urdf": _urdf,
-        ".srdf": _srdf,
-        ".sph": _sph,
+        ".yml": curobo,
+        ".yaml": curobo,
+        ".urdf": urdf,
+        ".srdf": srdf,
+        ".sph": sphere_tree,
         ".xyzr": _xyzr,
         ".txt": _xyzr,
     }
+    if kind is not None and kind not in KINDS:
+        raise KindError(f"kind is one of {', '.join(KINDS)}, not {kind!r}")
     reader = readers.get(place.suffix.lower())
     if reader is None:
         raise InputError(f"{place}: unknown format; known are {', '.join(readers)}")
-    made = {}
-    for name, rows, said in reader(place):
-        try:
-            made[name] = Balls(_rows(rows), kind or said, place.name)
-        except InputError as error:
-            raise InputError(f"{place}{': ' + name if name else ''}: {error}") from None
+    try:
+        made = _made(reader(place), kind, place.name)
+    except KindError as error:
+        raise KindError(f"{place}: {error}") from None
+    except (ValueError, TypeError, RecursionError, EOFError, MemoryError, OverflowError) as error:
+        raise InputError(f"{place}: {error or type(error).__name__}") from None
     if not made:
         raise InputError(f"{place}: no balls in it")
     return made
 
 
-Found = Iterator[tuple[str, Any, str]]  # link, rows, kind
-
-
-def _rows(rows: Any) -> Any:
-    array = np.asarray(rows)
-    return array.reshape(0, 4) if array.size == 0 and array.ndim < 2 else array
-
-
-def _number(text: Any) -> float:
-    try:
-        return float(text)
-    except (TypeError, ValueError):
-        raise InputError(f"{text!r} is not a number") from None
-
-
-def _triple(text: Any, what: str) -> list[float]:
-    values = [_number(part) for part in (text.split() if isinstance(text, str) else text or [])]
-    if len(values) != 3:
-        raise InputError(f"{what}: three numbers are wanted, not {text!r}")
-    return values
+def _made(found: Found, kind: str | None, source: str) -> dict[str, Balls]:
+    made: dict[str, Balls] = {}
+    for name, rows, said in found:
+        if name in made:
+            raise InputError(f"link {name} is there twice")
+        if said not in KINDS:
+            raise InputError(f"its balls are said to be {said!r}, not one of {', '.join(KINDS)}")
+        if kind is not None and said not in ("unknown", kind):
+            raise KindError(
+                f"the file says that its balls are {said}, not {kind}; if you know better say so: "
+                f"read(...).as_kind({kind!r})"
+            )
+        try:
+            made[name] = Balls(rows, kind or said, source)
+        except InputError as error:
+            raise InputError(f"{name}: {error}" if name else str(error)) from None
+    return made
 
 
 def _xyzr(path: Path) -> Found:
     rows: list[list[float]] = []
-    kind = "unknown"
-    for number, line in enumerate(path.read_text(encoding="utf-8-sig").splitlines(), 1):
-        said = re.match(r"#\s*kind:\s*(\w+)\s*$", line)
+    kind = ""
+    for count, line in enumerate(path.read_text(encoding="utf-8-sig").split("\n"), 1):
+        text, _, comment = line.partition("#")
+        said = re.fullmatch(r"\s*kind\s*:\s*(.*?)\s*", comment, flags=re.IGNORECASE)
         if said:
-            kind = said[1]
-        words = line.split("#")[0].replace(",", " ").split()
-        if not words:
+            if kind not in ("", said[1].lower()):
+                raise InputError(f"line {count}: the balls were said to be {kind} before")
+            kind = said[1].lower()
+        if not text.strip():
             continue
+        words = [w.strip() for w in text.split(",")] if "," in text else text.split()
         if len(words) not in (3, 4) or (rows and len(words) != len(rows[0])):
-            raise InputError(
-                f'{path}:{number}: {len(words)} columns; a ball is "x y r" or "x y z r"'
-            )
+            raise InputError(f'line {count}: {len(words)} columns; a ball is "x y r" or "x y z r"')
         try:
-            rows.append([float(word) for word in words])
-        except ValueError:
-            raise InputError(f"{path}:{number}: not a number: {line.strip()!r}") from None
-    yield "", rows, kind
+            rows.append([number(word) for word in words])
+        except InputError as error:
+            raise InputError(f"line {count}: {error}") from None
+    if rows:
+        yield "", rows, kind or "unknown"
 
 
 def _npy(path: Path) -> Found:
-    yield "", np.load(path, allow_pickle=False), "unknown"
+    file = io.BytesIO(path.read_bytes())
+    rows = np.lib.format.read_array(file, allow_pickle=False)
+    if file.read(1):
+        raise InputError("there is more in the file after the array")
+    yield "", rows, "unknown"
 
 
 def _json(path: Path) -> Found:
-    """Own files, and foam's: a list of levels, of which the last is the finest, each with
-    `spheres`."""
-    raw = json.loads(path.read_text(encoding="utf-8"))
-    if isinstance(raw, dict) and raw.get("format") == FORMAT:
-        yield "", np.array(raw["balls"], dtype=float).reshape(-1, int(raw["dim"]) + 1), raw["kind"]
+    """Own files, or what others write."""
+    raw = json.loads(path.read_text(encoding="utf-8-sig"), object_pairs_hook=one_of_each)
+    if not isinstance(raw, dict) or raw.get("format") != FORMAT:
+        yield from robot_json(raw)
         return
-    if (
-        isinstance(raw, list)
-        and raw
-        and all(isinstance(level, dict) and "spheres" in level for level in raw)
+    if set(raw) != {"format", "dim", "kind", "balls"}:
+        raise InputError("a file of libcage has format, dim, kind and balls")
+    dim, rows = raw["dim"], raw["balls"]
+    if type(dim) is not int or dim not in (2, 3):
+        raise InputError(f"dim is 2 or 3, not {dim!r}")
+    if not isinstance(rows, list) or any(
+        not isinstance(row, list) or len(row) != dim + 1 for row in rows
     ):
-        raw = raw[-1]
-    if isinstance(raw, dict) and "spheres" in raw:
-        yield "", _spheres(raw["spheres"], "origin"), "unknown"
-    elif isinstance(raw, list):
-        yield "", _spheres(raw, "origin"), "unknown"
-    elif isinstance(raw, dict):
-        for name, value in raw.items():
-            yield (
-                name,
-                _spheres(value["spheres"] if isinstance(value, dict) else value, "origin"),
-                "unknown",
-            )
-
-
-def _spheres(items: Any, centre: str) -> list[list[float]]:
-    if not isinstance(items, list) or not all(isinstance(item, dict) for item in items):
-        raise InputError(f"a list of spheres with {centre} and radius is wanted")
-    return [
-        _triple(item.get(centre, item.get("center")), centre) + [_number(item.get("radius"))]
-        for item in items
-    ]
-
-
-def _curobo(path: Path) -> Found:
-    """collision_spheres of cuRobo, or the file that it names. Balls with a negative radius are
-    switched off there, and left out. collision_sphere_buffer is not added."""
-    import yaml
-
-    found = _find(yaml.safe_load(path.read_text(encoding="utf-8")), "collision_spheres")
-    if isinstance(found, str):
-        other = path.parent / found
-        found = _find(yaml.safe_load(other.read_text(encoding="utf-8")), "collision_spheres")
-    if not isinstance(found, dict):
-        raise InputError(f"{path}: no collision_spheres of links")
-    for name, items in found.items():
-        rows = _spheres(items, "center")
-        yield str(name), [row for row in rows if row[3] >= 0], "unknown"
-
-
-def _find(tree: Any, key: str) -> Any:
-    if isinstance(tree, dict):
-        if key in tree:
-            return tree[key]
-        for value in tree.values():
-            found = _find(value, key)
-            if found is not None:
-                return found
-    return None
-
-
-def _xml(path: Path) -> Any:
-    try:
-        return ElementTree.parse(path).getroot()
-    except ElementTree.ParseError as error:
-        raise InputError(f"{path}: {error}") from None
-
-
-def _urdf(path: Path) -> Found:
-    """Collision spheres of each link. Other shapes are an error: without them the balls would be
-    another robot."""
-    for link in _xml(path).iter("link"):
-        rows = []
-        for part in link.findall("collision"):
-            sphere = part.find("geometry/sphere")
-            name = link.get("name", "")
-            if sphere is None:
-                raise InputError(f"{path}: link {name} has a collision shape that is no sphere")
-            origin = part.find("origin")
-            place = "0 0 0" if origin is None else origin.get("xyz", "0 0 0")
-            rows.append(_triple(place, f"link {name}") + [_number(sphere.get("radius"))])
-        if rows:
-            yield link.get("name", ""), rows, "unknown"
-
-
-def _srdf(path: Path) -> Found:
-    """link_sphere_approximation of MoveIt. Links without spheres of positive radius are left out:
-    that is how it says that a link is not checked."""
-    for link in _xml(path).iter("link_sphere_approximation"):
-        rows = [
-            _triple(sphere.get("center"), "center") + [_number(sphere.get("radius"))]
-            for sphere in link.findall("sphere")
-        ]
-        rows = [row for row in rows if row[3] > 0]
-        if rows:
-            yield link.get("link", ""), rows, "unknown"
-
-
-def _sph(path: Path) -> Found:
-    """A sphere tree: "levels degree", then level by level its nodes x y z r, a radius that is not
-    positive where there is none. The leaves are the nodes without children."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    try:
-        levels, degree = (int(word) for word in lines[0].split()[:2])
-        total = (
-            sum(degree**level for level in range(levels)) if levels < 12 and degree < 1000 else -1
-        )
-        if levels < 1 or degree < 1 or not 0 < total < 10_000_000:
-            raise ValueError
-        nodes = [[float(word) for word in line.split()[:4]] for line in lines[1 : total + 1]]
-    except (ValueError, IndexError):
-        raise InputError(f"{path}: not a sphere tree") from None
-    if len(nodes) != total or any(len(node) != 4 for node in nodes):
-        raise InputError(f"{path}: {total} nodes are announced, and not there")
-    there = [node[3] > 0 for node in nodes]
-    leaves = [
-        node
-        for i, node in enumerate(nodes)
-        if there[i] and not any(there[degree * i + 1 : degree * i + degree + 1])
-    ]
-    yield "", leaves, "unknown"
+        raise InputError(f"balls are rows of {dim + 1} numbers, as dim is {dim}")
+    if any(isinstance(value, str) for row in rows for value in row):
+        raise InputError("balls are rows of numbers, not of text")
+    array = np.array([[number(value) for value in row] for row in rows], dtype=np.float64)
+    yield "", array.reshape(len(rows), dim + 1), raw["kind"]
 
 
 # ---- writing -------------------------------------------------------------------------------------
@@ -249,13 +154,17 @@ def write(path: PathLike, balls: Balls, unit: float = 2.0**-20, name: str = "bal
     """Write balls as xyzr, npy (which has no place for the kind), json, or a C header (.h).
 
     A header has the balls in grid units of `unit` metres, a power of two: inner and exact balls
-    rounded inward as NAME_inner, outer and exact ones rounded outward as NAME_outer.
+    rounded inward as NAME_inner, without those that are too small for the unit, outer and exact
+    ones rounded outward as NAME_outer.
     """
     place = Path(path)
     suffix = place.suffix.lower()
     if suffix == ".npy":
-        np.save(place, balls.rows, allow_pickle=False)
+        with open(place, "wb") as file:  # np.save would append .npy to .NPY
+            np.save(file, balls.rows, allow_pickle=False)
     elif suffix == ".xyzr":
+        if not len(balls):
+            raise InputError("xyzr has no place for the dimension of no balls: write .npy or .json")
         lines = [
             f"# kind: {balls.kind}",
             *(" ".join(map(repr, row)) for row in balls.rows.tolist()),
@@ -271,7 +180,7 @@ def write(path: PathLike, balls: Balls, unit: float = 2.0**-20, name: str = "bal
 
 
 def _header(balls: Balls, unit: float, name: str) -> str:
-    if not re.fullmatch(r"[A-Za-z_]\w*", name):
+    if not re.fullmatch(r"[A-Za-z]\w*", name, flags=re.ASCII):
         raise InputError(f"{name!r} is no name in C")
     if not len(balls):
         raise InputError("C has no arrays without elements")
@@ -287,6 +196,10 @@ def _header(balls: Balls, unit: float, name: str) -> str:
         "",
     ]
     inner, outer = to_grid(balls, unit)
+    if balls.kind != "outer" and len(inner) < len(balls):
+        if not len(inner):
+            raise InputError(f"no inner ball is left at a unit of {unit:g}; use a smaller one")
+        lines[0] = lines[0][:-3] + f" {len(balls) - len(inner)} are too small to be inner ones. */"
     for side, rows in (("inner", inner), ("outer", outer)):
         if balls.kind in (side, "exact") and len(rows):
             lines.append(f"static const cage_ball {name}_{side}[{len(rows)}] = {{")

@@ -9,29 +9,33 @@ import numpy as np
 
 from . import _native
 from .balls import Balls, Solid, to_grid
-from .errors import GridError
+from .errors import GridError, InputError
+from .frozen import Frozen, frozen_array
 from .poses import Floats, Ints
 
+MOST_PAIRS = 1 << 28  # CAGE_PAIRS_MAX of the library
 SMALLEST, LARGEST = 2.0**-160, 2.0**160  # of a unit
 
 
-class Grid:
+class Grid(Frozen):
     """The scene in grid units. The C struct points into arrays held here: keep the Grid alive."""
 
     __slots__ = ("unit", "dim", "arrays", "struct", "pairs")
+    unit: float
+    dim: int
+    arrays: tuple[Ints, Ints, Ints, Ints]  # object inner, object outer, obstacles inner, outer
+    struct: _native.SceneStruct
+    pairs: int
 
     def __init__(self, unit: float, dim: int, arrays: tuple[Ints, Ints, Ints, Ints]) -> None:
-        self.unit = unit
-        self.dim = dim
-        self.arrays = arrays  # object inner, object outer, obstacles inner, obstacles outer
-        for array in arrays:
-            array.setflags(write=False)
+        kept = tuple(frozen_array(array) for array in arrays)
         shapes = [
             _native.Shape(inner.ctypes.data, outer.ctypes.data, len(inner), len(outer))
-            for inner, outer in (arrays[:2], arrays[2:])
+            for inner, outer in (kept[:2], kept[2:])
         ]
-        self.struct = _native.SceneStruct(shapes[0], shapes[1], dim)
-        self.pairs = len(arrays[0]) * len(arrays[2])
+        struct = _native.SceneStruct(shapes[0], shapes[1], dim)
+        pairs = len(arrays[0]) * len(arrays[2])
+        self._set(unit=unit, dim=dim, arrays=kept, struct=struct, pairs=pairs)
 
     def bytes(self) -> bytes:
         """All of it that an answer depends on."""
@@ -40,12 +44,14 @@ class Grid:
 
 
 def _sides(solid: Solid, unit: float, dim: int) -> tuple[Ints, Ints]:
-    """Inner and outer balls of a solid. Where one set is not there the search of that side is not
-    made: no inner balls collide with nothing, and the outer ones stand in for the range check."""
+    """Inner and outer balls of a solid. Where one set is not there, or proves nothing, the search
+    of that side is not made: no inner balls collide with nothing, and the outer balls of any set
+    stand in for the range check."""
     inner = np.zeros((0, 4), dtype=np.int32)
     outer = inner
     if solid.inner is not None:
-        inner, outer = to_grid(solid.inner, unit)
+        rows, outer = to_grid(solid.inner, unit)
+        inner = rows if solid.proves("inner") else inner
     if solid.outer is not None and solid.outer is not solid.inner:
         outer = to_grid(solid.outer, unit)[1]
     return inner, outer
@@ -57,6 +63,17 @@ def make(object_: Solid, obstacles: Solid, unit: float) -> tuple[Grid | None, in
     grid = Grid(unit, dim, _sides(object_, unit, dim) + _sides(obstacles, unit, dim))
     error = _native.lib.cage_scene_check(ctypes.byref(grid.struct))
     return (grid if error == 0 else None), error
+
+
+def check_count(one: Solid, other: Solid) -> None:
+    """Refuse scenes with more pairs of balls than the library counts in a slice."""
+    for side in ("inner", "outer"):
+        first, second = (len(getattr(s, side) or ()) for s in (one, other))
+        if first * second > MOST_PAIRS:
+            raise InputError(
+                f"{first} {side} balls of the object times {second} of the obstacles: more than "
+                f"{MOST_PAIRS} pairs. Fewer balls are wanted, or parts of the scene apart"
+            )
 
 
 def reach(solid: Solid) -> float:

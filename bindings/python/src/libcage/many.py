@@ -41,6 +41,7 @@ class Question:
         }
         if wrong:
             raise InputError(f"no option of a question: {', '.join(sorted(wrong))}")
+        object.__setattr__(self, "options", dict(self.options))  # not to be changed from outside
 
     @property
     def proved(self) -> Scene:
@@ -94,8 +95,10 @@ def prove_many(
     executor: any concurrent.futures.Executor (dask: client.get_executor()), or a function that
     makes one, which is called again when a pool breaks (then it is closed here at the end). None:
     here, one after the other. retries: times that one question is asked again after a worker died;
-    what the library itself refuses is raised at once. checkpoint: a folder that answers are kept
-    in."""
+    what the library itself refuses is raised at once, and an answer that its worker does not say to
+    be to this question, by this library, is not believed. checkpoint: a folder that answers are
+    kept in. Ctrl-C ends it, and the workers that were started here; work that was begun on another
+    machine goes on there to its end."""
     todo = list(questions)
     for one in todo:
         if not isinstance(one, Question):

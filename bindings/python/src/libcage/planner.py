@@ -19,10 +19,12 @@ from .scene import Scene
 @dataclass(frozen=True)
 class Race:
     """What came out: `status` of the planner (OMPL: PlannerStatus, INFEASIBLE where the proof says
-    so), and the proof's Result, or None where the planner was first."""
+    so), and the proof's Result, or None where the planner was first. `error`: why there is no
+    proof, where the proof failed (memory, say) while the planner had an answer."""
 
     status: Any
     proof: Result | None
+    error: BaseException | None = None
 
 
 class Prover:
@@ -58,11 +60,10 @@ class Prover:
         return self.result is not None and self.result.verdict.separated
 
     def stop(self) -> Result | None:
-        """End the thread, after its portion of steps; the Result if there is one."""
+        """End the thread, after its portion of steps; the Result if there is one, else see
+        `error`."""
         self._stop.set()
         self._thread.join()
-        if self.error is not None:
-            raise self.error
         return self.result
 
 
@@ -86,7 +87,9 @@ def race(
         proof = prover.stop()
     if proof is not None and proof.verdict.separated:
         return Race(infeasible, proof)
-    return Race(status, proof)
+    if prover.error is not None and not status:
+        raise prover.error
+    return Race(status, proof, prover.error)
 
 
 def race_ompl(

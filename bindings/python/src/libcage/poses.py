@@ -17,11 +17,20 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from .errors import PoseError
+from .frozen import frozen_array, is_masked
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 
+UNIT = 1e-3  # how far from 1 the length of a quaternion may be; it is made 1
 RIGID = 1e-6  # how far from orthonormal the rotation of a matrix may be, each entry of R^T R - 1
+
+
+NO_UNIT = (
+    "a quaternion is not of length 1 (to 1e-3): normalise it, and check that its order is the one "
+    "of the function's name"
+)
+NOT_FLAT = "a rotation in the plane is about z: its quaternion is (w, 0, 0, z)"
 
 
 @dataclass(frozen=True)
@@ -29,10 +38,31 @@ class Pose:
     """One pose: `x` where the object's origin is (metres), `wxyz` a unit quaternion.
 
     In the plane x has two entries, and the quaternion is about z; `theta` is its angle.
+    Other shapes, NaN, and quaternions that are not of length 1 (to 1e-3) are refused.
     """
 
     x: tuple[float, ...]
     wxyz: tuple[float, float, float, float]
+
+    def __post_init__(self) -> None:
+        try:
+            x = tuple(map(float, self.x))
+            q = tuple(map(float, self.wxyz))
+        except (TypeError, ValueError, OverflowError):
+            raise PoseError("a pose is made of real numbers") from None
+        if len(x) not in (2, 3) or len(q) != 4:
+            raise PoseError(f"a pose has x of length 2 or 3 and wxyz of 4, not {len(x)}, {len(q)}")
+        size = math.hypot(*q)
+        if not (all(map(math.isfinite, x)) and math.isfinite(size)):
+            raise PoseError("pose: NaN or infinite")
+        if abs(size - 1) > UNIT:
+            raise PoseError(NO_UNIT)
+        if len(x) == 2 and (q[1] or q[2]):
+            raise PoseError(NOT_FLAT)
+        if abs(size - 1) > 1e-15:
+            q = tuple(value / size for value in q)
+        object.__setattr__(self, "x", x)
+        object.__setattr__(self, "wxyz", q)
 
     @property
     def dim(self) -> int:
@@ -67,10 +97,31 @@ class Pose:
 
 @dataclass(frozen=True, eq=False)
 class Poses:
-    """Many poses: `x` of shape (n, 2) or (n, 3), `wxyz` unit quaternions of shape (n, 4)."""
+    """Many poses: `x` of shape (n, 2) or (n, 3), `wxyz` unit quaternions of shape (n, 4).
+
+    Both are copied, cannot be changed, and are checked as for a Pose."""
 
     x: Floats
     wxyz: Floats
+
+    def __post_init__(self) -> None:
+        x, q = real(self.x, "x"), real(self.wxyz, "wxyz")
+        if x.ndim != 2 or x.shape[1] not in (2, 3) or q.shape != (len(x), 4):
+            raise PoseError(
+                f"x of shape (n, 2) or (n, 3) and wxyz of shape (n, 4) are wanted, not {x.shape} "
+                f"and {q.shape}"
+            )
+        with np.errstate(over="ignore"):
+            size = np.linalg.norm(q, axis=1)
+        if (abs(size - 1) > UNIT).any():
+            raise PoseError(f"pose {int(np.argmax(abs(size - 1) > UNIT))}: {NO_UNIT}")
+        if x.shape[1] == 2 and q[:, 1:3].any():
+            raise PoseError(f"pose {int(np.argmax(q[:, 1:3].any(axis=1)))}: {NOT_FLAT}")
+        wrong = abs(size - 1) > 1e-15
+        if wrong.any():
+            q[wrong] /= size[wrong, None]
+        object.__setattr__(self, "x", frozen_array(x))
+        object.__setattr__(self, "wxyz", frozen_array(q))
 
     @property
     def dim(self) -> int:
@@ -112,13 +163,20 @@ def rotation_matrices(wxyz: Floats) -> Floats:
 
 
 def real(values: Any, what: str) -> Floats:
-    """The values as float64, exactly, or an error that says what they are."""
-    array = np.asarray(values)
+    """The values as a new array of float64, exactly, or an error that says what they are."""
+    if is_masked(values):
+        raise PoseError(f"{what}: a masked array; leave out what it hides: array.compressed()")
+    try:
+        array = np.asarray(values)
+    except (ValueError, OverflowError):
+        raise PoseError(f"{what}: rows of one length, of real numbers, are wanted") from None
     if array.dtype.kind not in "fiu" or array.dtype.itemsize > 8:
         raise PoseError(f"{what}: numbers of type {array.dtype}; use float64")
     result = array.astype(np.float64)
     if not np.isfinite(result).all():
         raise PoseError(f"{what}: NaN or infinite")
+    if array.dtype.kind in "iu" and array.dtype.itemsize == 8 and (abs(result) >= 2.0**53).any():
+        raise PoseError(f"{what}: whole numbers that float64 does not hold exactly")
     return result
 
 
@@ -131,12 +189,10 @@ def _from_quaternions(x: ArrayLike, quaternions: ArrayLike, order: list[int]) ->
             f"positions of shape (n, 3) and quaternions of shape (n, 4) are wanted, not "
             f"{place.shape} and {turn.shape}"
         )
-    size = np.linalg.norm(turn, axis=1, keepdims=True)
-    if (abs(size - 1) > 1e-3).any():
-        raise PoseError(
-            "a quaternion is not of length 1 (to 1e-3): normalise it, and check that its "
-            "order is the one of the function's name"
-        )
+    with np.errstate(over="ignore"):
+        size = np.linalg.norm(turn, axis=1, keepdims=True)
+    if (abs(size - 1) > UNIT).any():
+        raise PoseError(NO_UNIT)
     poses = Poses(place, turn[:, order] / size)
     return poses[0] if single else poses
 
@@ -200,11 +256,19 @@ def pose(value: PoseLike, dim: int) -> Pose:
         and len(value) == 3
         and all(type(v) in (int, float) for v in value)
     ):
-        x, y, theta = map(float, value)
+        try:
+            x, y, theta = map(float, value)
+        except OverflowError:
+            raise PoseError("pose: a number beyond the range of doubles") from None
         if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(theta)):
             raise PoseError("pose: NaN or infinite")
         return Pose((x, y), (math.cos(theta / 2), 0.0, 0.0, math.sin(theta / 2)))
-    array = np.asarray(value)
+    if is_masked(value):
+        raise PoseError("pose: a masked array")
+    try:
+        array = np.asarray(value)
+    except (ValueError, OverflowError):
+        raise PoseError("pose: real numbers are wanted") from None
     if dim == 2:
         if array.shape != (3,):
             raise PoseError(
@@ -234,10 +298,9 @@ def poses(values: PosesLike, dim: int) -> Poses:
         if values.dim != dim:
             raise PoseError(f"the poses have {values.dim} dimensions, the scene {dim}")
         return values
-    array = np.asarray(values)
-    if array.size == 0 and array.ndim < 3:
+    if isinstance(values, (list, tuple)) and not values:
         return Poses(np.zeros((0, dim)), np.zeros((0, 4)))
-    return from_xytheta(array) if dim == 2 else from_matrices(array)
+    return from_xytheta(values) if dim == 2 else from_matrices(values)
 
 
 # ---- the grid ------------------------------------------------------------------------------------

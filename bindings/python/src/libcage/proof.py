@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import ctypes
+import os
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +16,7 @@ from numpy.typing import NDArray
 
 from . import _native
 from .errors import CageError, InputError, OutOfMemoryError
+from .frozen import frozen_array, whole
 from .grid import Grid
 from .poses import Ints, pose_of
 from .result import Path, Result, Statistics, Verdict
@@ -32,12 +35,43 @@ def reachable(values: Ints) -> ctypes.c_void_p:
     return ctypes.c_void_p(values.ctypes.data)
 
 
+def most_bytes(memory: int | None) -> int:
+    """The bytes that a block may grow to, from the argument `memory`."""
+    return MEMORY if memory is None else whole(memory, "memory, in bytes", 1, 1 << 62)
+
+
+class Stopped(Exception):
+    """Work was given up because those who asked for it did not want it any more."""
+
+
+_stop = threading.local()
+
+
+@contextmanager
+def stoppable(path: str) -> Iterator[None]:
+    """Proofs and surveys of this thread end with Stopped when a file of that name appears."""
+    _stop.path = path
+    try:
+        yield
+    finally:
+        _stop.path = ""
+
+
+def check_stop() -> None:
+    """Raise Stopped where nobody waits for the work of this thread."""
+    path = getattr(_stop, "path", "")
+    if path and os.path.exists(path):
+        raise Stopped
+
+
 _spare: list[NDArray[np.uint8]] = []  # one block of a proof that was closed: its pages are there
 SPARE = 64 << 20
 
 
 def take_block(size: int) -> NDArray[np.uint8]:
-    """A block of at least so many bytes."""
+    """A block of at least so many bytes. How many it has is its length: a larger one may come."""
+    if size < 0:
+        raise InputError(f"a block of {size} bytes")
     try:
         block = _spare.pop()
     except IndexError:
@@ -55,9 +89,8 @@ class Crew:
     """Threads for one proof or survey, started when it turns out to be long."""
 
     def __init__(self, threads: int | None, pairs: int) -> None:
-        self.count = 0 if threads is None else int(threads)  # 0: not yet asked how many there are
-        if threads is not None and not 1 <= self.count <= 64:
-            raise InputError(f"threads: 1 to 64, not {threads}")
+        # 0: not yet asked how many there are
+        self.count = 0 if threads is None else whole(threads, "threads", 1, 64)
         self.pairs = pairs
         self.handle: int | None = None
         self.workers = _native.Workers()
@@ -89,6 +122,7 @@ def run_all(step: Callable[[int, Any], int], crew: Crew, show: Callable[[], None
     steps, begun = FIRST_STEPS, time.perf_counter()
     try:
         while True:
+            check_stop()
             before = time.perf_counter()
             together = crew.ask() if before - begun > ALONE else None
             state = step(max(steps, 1024) if together is not None else steps, together)
@@ -122,7 +156,7 @@ class Proof:
         self.scene = scene
         self.grid, self.start, self.goal, self.limits = grid, start, goal, limits
         self.about, self.note = about, note
-        self.most = MEMORY if memory is None else int(memory)
+        self.most = most_bytes(memory)
         self.seconds = 0.0
         self._lock = threading.Lock()
         self._handle = ctypes.c_void_p()
@@ -130,10 +164,11 @@ class Proof:
         self._begin(min(size, self.most) if size else 0)
 
     def _begin(self, size: int) -> None:
-        self._block = take_block(size)
-        self._size = size
-        self._state = 0
+        # The handle points into the old block: it goes first, wherever a Ctrl-C comes between.
         self._handle = ctypes.c_void_p()
+        self._block = take_block(size)
+        self._size = min(size, len(self._block))
+        self._state = 0
         _native.lib.cage_prove_begin(
             ctypes.byref(self._handle),
             ctypes.byref(self.grid.struct),
@@ -141,7 +176,7 @@ class Proof:
             None if self.goal is None else reachable(self.goal),
             ctypes.byref(self.limits),
             ctypes.c_void_p(self._block.ctypes.data),
-            size,
+            self._size,
         )
 
     def _raw(self) -> _native.ResultStruct:
@@ -155,8 +190,7 @@ class Proof:
 
         Where the block of memory is too small it begins again in a larger one.
         """
-        if steps < 0:
-            raise InputError("steps: not negative")
+        steps = whole(steps, "steps", 0, 1 << 62)
         with self._lock:
             return self._advance(lambda: self._step(steps, None)) == 1
 
@@ -215,8 +249,7 @@ class Proof:
         if verdict.joined:
             count = int(raw.path_count)
             address = ctypes.cast(raw.path, ctypes.POINTER(ctypes.c_int32))
-            rows = np.ctypeslib.as_array(address, (count, 7)).copy()
-            rows.setflags(write=False)
+            rows = frozen_array(np.ctypeslib.as_array(address, (count, 7)))
             path = Path(
                 rows,
                 (raw.pivot[0], raw.pivot[1], raw.pivot[2]),
@@ -288,12 +321,18 @@ class Proof:
         True at [i, j (, k)] where the point origin + pitch (i, j, k), metres, lies in the reached
         part of the inner slices. origin and pitch are rounded to the grid. For pictures."""
         dim, unit = self.grid.dim, self.grid.unit
-        if len(origin) != dim or len(shape) != dim or min(shape) < 1:
-            raise InputError(f"origin and shape have {dim} entries each, shape at least 1")
-        first = np.zeros(3, dtype=np.int32)
-        first[:dim] = np.rint(np.asarray(origin) / unit)
+        if len(origin) != dim or len(shape) != dim:
+            raise InputError(f"origin and shape have {dim} entries each")
+        first, reach = np.zeros(3, dtype=np.int32), _native.REACH[dim]
+        place = np.rint(np.asarray(origin, dtype=np.float64) / unit)
+        if not (abs(place) <= reach).all() or not 0 < pitch <= reach * unit:
+            raise InputError(
+                f"origin and pitch lie within the grid, {reach * unit:.6g} metres, and pitch is "
+                "positive"
+            )
+        first[:dim] = place
         count = np.ones(3, dtype=np.int32)
-        count[:dim] = shape
+        count[:dim] = [whole(number, "an entry of shape", 1, 1 << 20) for number in shape]
         mask = np.zeros(int(np.prod(count)), dtype=np.uint8)
         with self._lock:
             self._raw()

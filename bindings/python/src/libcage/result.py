@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .errors import InputError
+from .frozen import frozen_array
 from .poses import Ints, Pose, Poses, from_grid, pose_of
 
 if TYPE_CHECKING:
@@ -225,7 +226,7 @@ class Result:
         pivot = tuple(int(value) for value in raw["pivot"]) + (0,) * (3 - dim)
         path = None
         if raw["path"] is not None:
-            grid = np.array(raw["path"], dtype=np.int32).reshape(-1, 7)
+            grid = frozen_array(np.array(raw["path"], dtype=np.int32).reshape(-1, 7))
             goal = None if raw["goal"] is None else tuple(raw["goal"])
             path = Path(
                 grid,

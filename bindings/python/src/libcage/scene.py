@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from . import _native, grid as grids
 from .balls import Solid, SolidLike, solid
 from .errors import GridError, InputError, KindError
+from .frozen import Frozen, whole
 from .grid import Grid
 from .poses import Ints, PoseLike, PosesLike, row_of, pose as read_pose, poses as read_poses
 from .poses import from_grid, to_grid
-from .proof import MEMORY, Proof, reachable
+from .proof import Proof, most_bytes, reachable
 from .result import Margin, Result
 
 if TYPE_CHECKING:
@@ -24,29 +25,44 @@ if TYPE_CHECKING:
 SIDES = {"inner": _native.INNER, "outer": _native.OUTER, "both": _native.BOTH}
 
 
-class Scene:
+class Scene(Frozen):
     """A rigid object and fixed obstacles, in the plane or in space. Lengths are metres.
 
     object: balls in the object's own frame, obstacles: balls in the world; each an array of rows `x
-    y r` or `x y z r` (which then are the solid), Balls, a Solid, or a shape (libcage.shapes). unit:
-    the length of a grid unit, a power of two; left out, the finest at which scene and poses fit.
-    Doubles are put on that grid: balls rounded to the safe side (inner ones inward, outer ones
-    outward), poses to the nearest. A Scene is immutable, can be pickled, and can be asked by many
-    threads at once."""
+    y r` or `x y z r`, Balls, a Solid, or a shape (libcage.shapes). An array has no kind: by passing
+    one, balls.rows too, you say that its balls are the solid. unit: the length of a grid unit, a
+    power of two; left out, the finest at which scene and poses fit. Doubles are put on that grid:
+    balls rounded to the safe side (inner ones inward, outer ones outward), poses to the nearest. A
+    Scene is immutable, can be pickled, and can be asked by many threads at once."""
+
+    __slots__ = (
+        *("object", "obstacles", "dim", "unit"),
+        *("_object_reach", "_reach", "_grids", "_insisted", "__weakref__"),
+    )
+    object: Solid
+    obstacles: Solid
+    dim: int
+    unit: float | None
+    _object_reach: float
+    _reach: float
+    _grids: dict[float, Grid]
+    _insisted: Scene | None
 
     def __init__(self, object: SolidLike, obstacles: SolidLike, unit: float | None = None) -> None:
-        self.object = solid(object)
-        self.obstacles = solid(obstacles)
-        if self.object.dim != self.obstacles.dim:
-            raise InputError(
-                f"the object has {self.object.dim} dimensions, the obstacles {self.obstacles.dim}"
-            )
-        self.dim = self.object.dim
-        self.unit = None if unit is None else grids.check_unit(unit)
-        self._object_reach = grids.reach(self.object)
-        self._reach = grids.reach(self.obstacles) + 3 * grids.half_extent(self.object)
-        self._grids: dict[float, Grid] = {}
-        self._insisted: Scene | None = None
+        part, walls = solid(object), solid(obstacles)
+        if part.dim != walls.dim:
+            raise InputError(f"the object has {part.dim} dimensions, the obstacles {walls.dim}")
+        self._set(
+            object=part,
+            obstacles=walls,
+            dim=part.dim,
+            unit=None if unit is None else grids.check_unit(unit),
+            _object_reach=grids.reach(part),
+            _reach=grids.reach(walls) + 3 * grids.half_extent(part),
+            _grids={},
+            _insisted=None,
+        )
+        grids.check_count(part, walls)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Scene, (self.object, self.obstacles, self.unit)
@@ -89,7 +105,7 @@ class Scene:
                 raise _TooFine
             raise _native.failure(error, f"the scene at a unit of {unit:g} metres")
         if len(self._grids) > 4:
-            self._grids = {}
+            self._set(_grids={})
         self._grids[unit] = made
         return made
 
@@ -126,17 +142,18 @@ class Scene:
                 if use == ["outer"]
                 else "paths were not looked for: they take outer or exact balls"
             ) + f" ({kinds})"
-        exact = all(s.inner is s.outer for s in solids)
+        exact = all(s.is_exact() for s in solids)
         about = (
             "the balls, which are the solids" if exact else f"the solids, by their balls ({kinds})"
         )
         return self, SIDES["both" if len(use) == 2 else use[0]], about, note
 
     def _filled(self) -> Scene:
-        """The same balls, each set on both sides where it is alone."""
+        """The same balls as if their kinds were right, a set that is alone on both sides."""
         if self._insisted is None:
             both = [_both(s) for s in (self.object, self.obstacles)]
-            self._insisted = Scene(both[0], both[1], self.unit)
+            self._set(_insisted=Scene(both[0], both[1], self.unit))
+        assert self._insisted is not None
         return self._insisted
 
     # ---- questions -------------------------------------------------------------------------------
@@ -166,12 +183,8 @@ class Scene:
             ("max_cells", max_cells),
         ):
             if value is not None:
-                if not -1 <= int(value) <= 1 << 24:
-                    raise InputError(
-                        f"{name} of {value}: levels are 0 to "
-                        f"{_native.LEVEL_MAX[self.dim]}, cells at most 2**24"
-                    )
-                setattr(limits, name, int(value))
+                most = 1 << 24 if name == "max_cells" else _native.LEVEL_MAX[self.dim]
+                setattr(limits, name, whole(value, name, -1, most))
         return limits
 
     def begin(
@@ -255,15 +268,14 @@ class Scene:
         """
         if side != "both":
             raise InputError("a margin is found from both sides")
-        if not 0 <= rounds <= 64:
-            raise InputError("rounds: 0 to 64")
+        rounds = whole(rounds, "rounds", 0, 64)
         scene, use, about, note = self._permit(side, insist)
         if note:
             raise KindError(f"a margin is found from both sides; {note}")
         made, first, last = scene._question(start, goal, room=2.0)
         limits = self._limits(use, None, max_level, max_cells)
         size = int(_native.lib.cage_prove_size(ctypes.byref(made.struct), ctypes.byref(limits)))
-        most = MEMORY if memory is None else int(memory)
+        most = most_bytes(memory)
         out = _native.MarginStruct()
         state = _native.OUT_OF_MEMORY
         size = min(max(2 * size, 64 << 20), most)
@@ -276,7 +288,7 @@ class Scene:
                 ctypes.byref(limits),
                 rounds,
                 ctypes.c_void_p(block.ctypes.data),
-                size,
+                min(size, len(block)),
                 ctypes.byref(out),
             )
             if state != _native.OUT_OF_MEMORY or size >= most:
@@ -297,18 +309,17 @@ class Scene:
             about,
         )
 
-    def collides(self, poses: PosesLike, side: str = "inner") -> NDArray[np.bool_]:
+    def collides(
+        self, poses: PosesLike, side: str = "inner", *, insist: bool = False
+    ) -> NDArray[np.bool_]:
         """Does the object collide, at each pose (rounded to the grid)? Exact, for the inner balls
         of both, or with side='outer' the outer ones. poses: rows x, y, theta; (n, 4, 4); or
-        Poses."""
+        Poses. insist: ask about balls whatever their kind is."""
         if side not in ("inner", "outer"):
             raise InputError("side: 'inner' or 'outer'")
-        if any(
-            (s.inner if side == "inner" else s.outer) is None for s in (self.object, self.obstacles)
-        ):
-            raise KindError(f"there are no {side} balls")
+        scene = self._permit(side, insist)[0]
         many = read_poses(poses, self.dim)
-        made = self.grid(grids.far(many.x))
+        made = scene.grid(grids.far(many.x))
         rows = to_grid(many, made.unit)
         out = np.empty(len(rows), dtype=np.int32)
         _native.lib.cagepy_collides_many(
@@ -327,9 +338,10 @@ class Scene:
 
 
 def _both(one: Solid) -> Solid:
-    return Solid(
-        one.outer if one.inner is None else one.inner, one.inner if one.outer is None else one.outer
-    )
+    inner = one.inner if one.inner is not None else one.outer
+    outer = one.outer if one.outer is not None else one.inner
+    assert inner is not None and outer is not None
+    return Solid(inner.as_kind("inner"), outer.as_kind("outer"))
 
 
 class _TooFine(Exception):

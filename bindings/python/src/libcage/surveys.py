@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from . import _native
-from .errors import AtlasError, InputError, OutOfMemoryError
+from .errors import AtlasError, OutOfMemoryError
+from .frozen import whole
 from .grid import Grid
 from .pool import Checkpoint, ExecutorLike, library_hash, run_jobs
 from .poses import Ints
@@ -47,6 +48,7 @@ def part_facts(job: Part) -> bytes:
     plan = _native.Plan()
     plan.side, plan.level, plan.max_cells = job.plan
     size = int(_native.lib.cage_survey_size(ctypes.byref(made.struct), ctypes.byref(plan)))
+    size = min(size, job.memory)
     return _grown(made, plan, size, job.memory, Crew(1, 1), [], None, (job.part, job.parts))
 
 
@@ -60,8 +62,7 @@ def parts(
     checkpoint: str | os.PathLike[str] | None,
 ) -> list[bytes]:
     """The facts of all parts, made on the executor or found in the folder."""
-    if count < 1:
-        raise InputError(f"parts: {count} is not a number of parts")
+    count = whole(count, "parts", 1, 1 << 20)
     told = (int(plan.side), int(plan.level), int(plan.max_cells))
     jobs = [Part(made.unit, made.dim, made.arrays, told, k, count, most) for k in range(count)]
     store = None if checkpoint is None else Checkpoint(checkpoint)
@@ -120,7 +121,7 @@ def _grown(
             ctypes.byref(made.struct),
             ctypes.byref(plan),
             ctypes.c_void_p(block.ctypes.data),
-            size,
+            min(size, len(block)),
         )
         state = 0
         for known in facts:

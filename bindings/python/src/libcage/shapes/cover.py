@@ -20,6 +20,7 @@ from .exact import Boundary, Floats
 
 HELD = 1 - 1e-12  # |corner - centre| in doubles is right to 1e-15 of itself: no cancellation in it
 MARGIN = 1e-13  # of |edge| |edge| |distance|; the products below are right to 1e-14 of that
+SMALLEST = 1e-60  # the cube of a cell's side, 2^-21 of this, is far from the least double
 TOGETHER = 4096  # cells
 PAIRS = 50_000  # of cells and elements in one array
 
@@ -50,6 +51,11 @@ class Cells:
 
 def root(boundary: Boundary, balls: int) -> Cells:
     """A cube around the solid whose halves, to depth 20, have exact doubles as corners."""
+    if boundary.size < SMALLEST:
+        raise SolidError(
+            f"a solid of size {boundary.size:g} is too small for doubles: products of three "
+            "lengths would vanish; use another unit of length"
+        )
     low = boundary.low.min(axis=0)
     half = math.ldexp(1.0, math.frexp(boundary.size)[1])  # the side is more than twice the solid's
     step = half * 2.0**-22

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..balls import Balls, Solid
+from ..balls import Balls, Solid, exact_rows
 from ..errors import InputError, SolidError
+from ..frozen import whole
 from . import cover
 from .exact import Boundary, Floats
 from .solids import MeshBoundary, PolygonBoundary, boundary
@@ -69,9 +70,7 @@ def verify_balls(solid: Any, balls: Any) -> Check:
     (z) r in the same frame and unit. Where the solid overlaps itself a ball counts as inside only
     if every reading of it says so."""
     edge = boundary(solid)
-    rows = balls.rows if isinstance(balls, Balls) else np.asarray(balls, dtype=np.float64)
-    if rows.ndim != 2:
-        raise InputError("balls are rows x y r or x y z r")
+    rows = balls.rows if isinstance(balls, Balls) else exact_rows(balls)
     problems = {i: why for i, row in enumerate(rows) if (why := edge.problem(row))}
     return Check(np.array([i not in problems for i in range(len(rows))], dtype=bool), problems)
 
@@ -92,7 +91,8 @@ def inner_of(solid: Any, balls: Any) -> Balls:
     check = verify_balls(solid, balls)
     if not check:
         raise SolidError(str(check))
-    return Balls(balls, "inner", "verified")
+    rows = balls.rows if isinstance(balls, Balls) else balls
+    return Balls(rows, "inner", "verified")
 
 
 # ---- candidates ----------------------------------------------------------------------------------
@@ -260,8 +260,10 @@ def fit(
     balls are found, never whether these are right.
     """
     edge = boundary(solid)
-    if count < 1 or samples < 16 or not tolerance >= 0:
-        raise InputError("count is 1 or more, samples 16 or more, tolerance 0 or more")
+    count, samples = whole(count, "count", 1, 1 << 24), whole(samples, "samples", 16, 1 << 24)
+    seed = whole(seed, "seed", 0, 1 << 62)
+    if not tolerance >= 0:
+        raise InputError("tolerance is 0 or more")
     reach = edge.size / 20 if outer_tolerance is None else float(outer_tolerance)
     if not 0 < reach < math.inf:
         raise InputError("outer_tolerance is positive")
