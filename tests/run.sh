@@ -15,6 +15,7 @@ add() { # NAME COMMAND
 quick='CK_FORK=no CAGE_TEST_QUICK=10'
 slow='CK_FORK=no CAGE_TEST_QUICK=40'
 memcheck='valgrind -q --suppressions=tests/libgomp.supp --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=all'
+add "the core's gates" "sh tests/gates.sh" # takes longest: first
 for source in tests/test_*.c; do
     test=$(basename "$source" .c)
     add "$test" "build/test/$test"
@@ -32,7 +33,6 @@ add "the command in space, Valgrind" "$memcheck build/cage prove --object exampl
 add "the command" "sh tests/cli.sh build/cage"
 add "the README" "sh tests/readme.sh"
 add "installation" "sh tests/install.sh"
-add "the core's gates" "sh tests/gates.sh"
 add "the demo" "sh examples/demo.sh build/cage build/test/demo"
 
 ls "$out"/*.sh | xargs -P 2 -I{} sh -c 's=$(date +%s); sh "{}" > "{}.out" 2>&1; echo $? $(($(date +%s) - s)) > "{}.status"'

@@ -261,10 +261,10 @@ static void candidates(int32_t dim, int32_t scenes)
     ck_assert(n < scenes || (sum.found > scenes / 20 && sum.with_goal > scenes / 50 && sum.decided > scenes / 20));
 }
 
-START_TEST(in_the_plane) { candidates(2, 1500); }
+START_TEST(in_the_plane) { candidates(2, 500); }
 END_TEST
 
-START_TEST(in_space) { candidates(3, 300); }
+START_TEST(in_space) { candidates(3, 100); }
 END_TEST
 
 /* ---- blocks of every size ---------------------------------------------------------------------------------- */
@@ -328,10 +328,10 @@ static void squeeze(int32_t dim, int32_t scenes, int32_t sizes)
     ck_assert(squeezed == n && answered > 0 && refused > 0);
 }
 
-START_TEST(small_blocks_in_the_plane) { squeeze(2, 60, 48); }
+START_TEST(small_blocks_in_the_plane) { squeeze(2, 24, 48); }
 END_TEST
 
-START_TEST(small_blocks_in_space) { squeeze(3, 12, 24); }
+START_TEST(small_blocks_in_space) { squeeze(3, 6, 24); }
 END_TEST
 
 /* ---- misuse -------------------------------------------------------------------------------------------------- */
