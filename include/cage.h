@@ -156,8 +156,9 @@ void cage_limits_default(cage_limits *limits, int32_t dim);
  * ones. 0 if the scene or the limits are not valid. */
 size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits);
 
-/* The same as a constant expression, for a block that is an array: never less than cage_prove_size, and at most 2.1 times that.
- * For shapes whose inner and outer counts are not more than these, and limits with that many cells. */
+/* The same as a constant expression, for a block that is an array: never less than cage_prove_size, and at most 2.1 times that; in
+ * space 3.1 times where one side alone is asked for, or max_cells is below 32. For shapes whose inner and outer counts are not
+ * more than these, and limits with that many cells. */
 #define CAGE_PROVE_BYTES(dim, objects, obstacles, max_cells)                                                              \
     ((dim) == 2 ? CAGE_PROVE_BYTES_OF_ONE(objects, 600ul * (objects) * (obstacles), 1ul * (max_cells))                    \
                 : 3 * CAGE_PROVE_BYTES_OF_ONE(objects, 1400ul * (objects) * (obstacles), ((max_cells) + 1ul) / 2))
