@@ -45,7 +45,7 @@ class Question:
 
     @property
     def proved(self) -> Scene:
-        """The scene that the answer is about: of the balls as they are, where that is insisted on."""
+        """The scene that the answer is about: of the balls as they are where one insists."""
         return self.scene._permit(
             self.options.get("side", "both"), self.options.get("insist", False)
         )[0]

@@ -278,7 +278,8 @@ class Scene(Frozen):
         """By how much every radius may shrink before the answer changes: how tight a cage is.
 
         rounds: bisections; each halves what is left between `closed` and `open` of the Margin.
-        Other arguments as in prove. Needs both sides. This is one call into C: Ctrl-C waits for it.
+        Other arguments as in prove. Needs both sides. This is one call into C, which has no
+        form in steps: Ctrl-C waits for it, so lower `rounds` or `max_cells` where it takes long.
         """
         if side != "both":
             raise InputError("a margin is found from both sides")
