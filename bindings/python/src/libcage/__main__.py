@@ -5,15 +5,18 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import re
 import sys
 from pathlib import Path
 from typing import Any
 
 from . import __version__, formats, poses
 from .balls import KINDS, Solid, solid, union
-from .errors import CageError, InputError, SolidError
+from .errors import CageError, InputError, MissingError, SolidError
+from .extras import extra
 from .scene import Scene
 
+NEGATIVE = re.compile(r"-(\.?[0-9]|inf|nan)")
 MESHES = {".stl", ".obj", ".ply", ".off", ".glb", ".3mf"}
 
 
@@ -33,7 +36,8 @@ def parser() -> argparse.ArgumentParser:
         "--start",
         required=True,
         metavar="POSE",
-        help="x,y,theta in the plane; in space x,y,z or x,y,z,qw,qx,qy,qz",
+        help="x,y,theta in the plane; in space x,y,z or x,y,z,qw,qx,qy,qz; may begin with a minus "
+        "sign",
     )
     made.add_argument("--goal", metavar="POSE", help="without it: can the object leave?")
     made.add_argument(
@@ -66,27 +70,45 @@ def parser() -> argparse.ArgumentParser:
     made.add_argument("--max-level", type=int)
     made.add_argument("--threads", type=int)
     made.add_argument(
-        "--margin", type=int, metavar="N", help="find the margin too, by N bisections"
+        "--margin",
+        type=int,
+        metavar="N",
+        help="find the margin too, by N bisections (Ctrl-C waits for it)",
     )
     made.add_argument("--html", metavar="FILE", help="write an interactive picture")
     made.add_argument("--png", metavar="FILE", help="in the plane: write a picture")
     made.add_argument("--json", action="store_true", help="print one JSON object")
-    made.add_argument("--quiet", action="store_true", help="print the verdict only, no progress")
+    made.add_argument(
+        "--quiet",
+        action="store_true",
+        help="print the verdict only, no progress; with --insist, on standard error, what it is "
+        "about",
+    )
     made.add_argument("--version", action="version", version=f"libcage {__version__}")
     return made
 
 
-def read_mesh(path: Path, scale: float) -> Any:
-    """The triangles of a file as they are there: nothing is merged, mended or left out."""
-    import trimesh
-
+def check_scale(scale: float) -> None:
+    """Refuse what would be a mirror image, a point, or nothing."""
     if not 0 < scale < math.inf:
         raise InputError(f"--scale {scale:g}: a positive number is wanted")
+
+
+def read_mesh(path: Path, scale: float) -> Any:
+    """The triangles of a file as they are there: nothing is merged, mended or left out."""
+    check_scale(scale)
+    with extra("shapes"):
+        import trimesh
+
     if not path.is_file():
         raise InputError(f"{path}: no such file")
     try:
         mesh: Any = trimesh.load_mesh(path, process=False)
         return trimesh.Trimesh(mesh.vertices * scale, mesh.faces, process=False)
+    except ModuleNotFoundError as error:
+        raise MissingError(
+            f"{path}: to read this format {error.name} is wanted: pip install 'trimesh[easy]'"
+        ) from None
     except Exception as error:  # whatever the reader of that format stumbles over
         raise InputError(f"{path}: no mesh: {error or type(error).__name__}") from None
 
@@ -152,6 +174,7 @@ def read_pose(text: str, dim: int) -> Any:
 
 def run(given: argparse.Namespace) -> None:
     """Everything after the options."""
+    check_scale(given.scale)
     part, said = read_solid(given.object, given, given.object_kind, given.link)
     others = [read_solid(path, given, given.obstacle_kind) for path in given.obstacles]
     if not given.quiet:
@@ -180,6 +203,8 @@ def run(given: argparse.Namespace) -> None:
         print(json.dumps(raw))
     elif given.quiet:
         print(answer.verdict)
+        if given.insist:
+            print(f"libcage: about: {answer.about}", file=sys.stderr)
     else:
         print(answer)
         print(f"start as proved: {answer.start}")
@@ -190,7 +215,8 @@ def run(given: argparse.Namespace) -> None:
 
         view.write_html(given.html, scene, answer)
     if given.png:
-        from matplotlib import pyplot
+        with extra("pictures"):
+            from matplotlib import pyplot
 
         from . import plot
 
@@ -200,9 +226,21 @@ def run(given: argparse.Namespace) -> None:
         pyplot.close(figure)
 
 
+def joined(arguments: list[str]) -> list[str]:
+    """The same with --start -1,0,0 as --start=-1,0,0: a number with its sign is no option."""
+    made: list[str] = []
+    for word in arguments:
+        last = made[-1] if made else ""
+        if "--" not in made and re.fullmatch("--[a-z][a-z-]*", last) and NEGATIVE.match(word):
+            made[-1] = f"{last}={word}"
+        else:
+            made.append(word)
+    return made
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Exit status 0 for any verdict, 2 for bad input, 130 for Ctrl-C."""
-    given = parser().parse_args(arguments)
+    given = parser().parse_args(joined(sys.argv[1:] if arguments is None else arguments))
     try:
         run(given)
     except (CageError, OSError, ImportError) as error:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from . import _native, grid as grids, surveys
 from .balls import LARGEST
 from .errors import AtlasError, InputError, PoseError
-from .frozen import Frozen, whole
+from .frozen import Frozen, real_number, whole
 from .pool import ExecutorLike
 from .poses import (
     Ints,
@@ -267,6 +267,7 @@ def make(
         raise InputError(
             "budget: cells are cut where the two sides disagree, and one is missing. " + note
         )
+    far = real_number(far, "far, in metres")
     if not 0 <= far <= LARGEST:
         raise InputError(f"far: 0 to {LARGEST:g} metres, not {far!r}")
     made = chosen.grid(max(far, scene._reach, scene._object_reach), 4.0)
@@ -281,7 +282,8 @@ def make(
     size = int(_native.lib.cage_survey_size(ctypes.byref(made.struct), ctypes.byref(plan)))
     if size == 0:
         raise InputError(
-            f"level of {level}: 0 to {_native.LEVEL_MAX[scene.dim]}; budget of {budget}: 0 to 2**24"
+            f"the cells down to level {level or 0} are more than "
+            + (f"the budget of {budget}" if budget else "2**24: a lower level is wanted")
         )
     size = min(max(size, 64 << 20), most)
     pairs = len(made.arrays[1]) * len(made.arrays[3])

@@ -50,6 +50,10 @@ class OutOfMemoryError(CageError, MemoryError):
         return type(self), (self.message, self.code, self.needed)
 
 
+class MissingError(CageError, ImportError):
+    """A package is not installed that only some functions need."""
+
+
 class LibraryError(ImportError):
     """The C library that was found is not the one this package was made for."""
 

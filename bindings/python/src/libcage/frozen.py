@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import operator
 from typing import Any, NoReturn
 
@@ -36,6 +37,17 @@ def is_masked(values: Any) -> bool:
     if isinstance(values, (list, tuple)):
         return any(isinstance(value, np.ma.MaskedArray) for value in values)
     return isinstance(values, np.ma.MaskedArray)
+
+
+def real_number(value: Any, what: str) -> float:
+    """A number that is not NaN, or an InputError that says what it is for."""
+    try:
+        number = float(value) if not isinstance(value, (str, bytes)) else math.nan
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    if math.isnan(number):
+        raise InputError(f"{what}: a number is wanted, not {value!r}")
+    return number
 
 
 def whole(value: Any, what: str, low: int, high: int) -> int:

@@ -10,7 +10,7 @@ import numpy as np
 from . import _native
 from .balls import Balls, Solid, to_grid
 from .errors import GridError, InputError
-from .frozen import Frozen, frozen_array
+from .frozen import Frozen, frozen_array, real_number
 from .poses import Floats, Ints
 
 MOST_PAIRS = 1 << 28  # CAGE_PAIRS_MAX of the library
@@ -105,7 +105,7 @@ def finest(length: float, dim: int) -> float:
 
 def check_unit(unit: float) -> float:
     """A unit must be a power of two: then lengths are divided by it exactly."""
-    unit = float(unit)
+    unit = real_number(unit, "unit, a power of two in metres")
     if not (unit > 0 and math.isfinite(unit) and math.frexp(unit)[0] == 0.5):
         raise GridError(
             f"the unit must be a power of two (in metres), not {unit!r}: 2.0**-20 is about "

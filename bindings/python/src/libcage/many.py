@@ -10,12 +10,12 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from .errors import InputError
 from .pool import Checkpoint, ExecutorLike, library_hash, run_jobs
-from .poses import PoseLike
+from .poses import PoseLike, pose as read_pose
 from .result import Result
 from .scene import Scene
 
@@ -45,7 +45,7 @@ class Question:
 
     @property
     def proved(self) -> Scene:
-        """The scene that the answer is about: of the balls as they are, where that is insisted on."""
+        """The scene that the answer is about: of the balls as they are where one insists."""
         return self.scene._permit(
             self.options.get("side", "both"), self.options.get("insist", False)
         )[0]
@@ -133,4 +133,14 @@ def prove_many(
     finally:
         if bar is not None:
             bar.close()
-    return [Result.from_bytes(done[index], one.proved) for index, one in enumerate(todo)]
+    return [_result(done[index], one) for index, one in enumerate(todo)]
+
+
+def _result(data: bytes, question: Question) -> Result:
+    """The result of a question, with its poses as they were asked."""
+    dim, goal = question.scene.dim, question.goal
+    return replace(
+        Result.from_bytes(data, question.proved),
+        asked_start=read_pose(question.start, dim),
+        asked_goal=None if goal is None else read_pose(goal, dim),
+    )

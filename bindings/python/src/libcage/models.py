@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from .errors import InputError
+from .extras import extra
 
 Link = tuple[str, Any, str]  # its name, rows, kind
 Found = Iterator[Link]
@@ -112,7 +113,8 @@ def curobo(path: Path) -> Found:
 
 def _collision_spheres(path: Path) -> Any:
     """The one value of that name in a file of YAML, its scalars as they are written."""
-    import yaml
+    with extra("formats"):
+        import yaml
 
     class Loader(yaml.BaseLoader):  # type: ignore[misc, unused-ignore]
         """All scalars are text, so that nothing is an octal or a sexagesimal number."""

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from .extras import extra
 from .poses import PoseLike
 from .proof import PORTION
 from .result import Result
@@ -108,7 +109,8 @@ def race_ompl(
     """
     import time
 
-    from ompl import base
+    with extra("planner"):
+        from ompl import base
 
     end = time.monotonic() + seconds
 

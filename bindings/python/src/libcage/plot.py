@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from .atlas import NO_CLASS, Atlas
 from .balls import Balls
 from .errors import InputError
+from .extras import extra
 from .poses import Pose, PoseLike, Poses, pose as read_pose
 from .result import Path, Result
 from .scene import Scene
@@ -26,7 +27,8 @@ OBSTACLE, START, GOAL, COVERED = "#8a8a8a", "#2a6fbb", "#e07b00", "#3c3c3c"
 def _axes(ax: Axes | None) -> Axes:
     if ax is not None:
         return ax
-    from matplotlib import pyplot
+    with extra("pictures"):
+        from matplotlib import pyplot
 
     return pyplot.subplots()[1]
 
@@ -48,8 +50,9 @@ def circles(
     ax: Axes, rows: NDArray[np.float64], colour: str, alpha: float = 1.0, zorder: float = 1
 ) -> None:
     """Discs, rows x y r."""
-    from matplotlib.collections import PatchCollection
-    from matplotlib.patches import Circle
+    with extra("pictures"):
+        from matplotlib.collections import PatchCollection
+        from matplotlib.patches import Circle
 
     patches = [Circle((float(x), float(y)), float(r)) for x, y, r in rows]
     ax.add_collection(
@@ -85,8 +88,9 @@ def scene(
 
 def path(what: Scene, way: Path, frames: int = 14, ax: Axes | None = None) -> Axes:
     """The scene with a path, as frames from violet to yellow, and the line of its pivot."""
-    from matplotlib import colormaps
-    from matplotlib.colors import to_hex
+    with extra("pictures"):
+        from matplotlib import colormaps
+        from matplotlib.colors import to_hex
 
     ax = scene(what, way.start, way.goal, ax)
     fine = way.frames(max(200, frames))
@@ -143,8 +147,9 @@ def classes_at(
 def _colours(classes: NDArray[np.int32]) -> NDArray[np.float64]:
     """Class 0, the outside, is pale; covered places are dark; the others have colours of their
     own."""
-    from matplotlib import colormaps
-    from matplotlib.colors import to_rgb
+    with extra("pictures"):
+        from matplotlib import colormaps
+        from matplotlib.colors import to_rgb
 
     table = np.array([colormaps["tab20"](i % 20)[:3] for i in range(20)])
     image: NDArray[np.float64] = table[classes % 20]
@@ -157,7 +162,8 @@ def slices(
     what: Scene, atlas: Atlas, thetas: Any = (0.0, 0.5, 1.0), side: str = "inner", points: int = 240
 ) -> list[Axes]:
     """For each angle, where the object's origin can be: free classes coloured, collisions dark."""
-    from matplotlib import pyplot
+    with extra("pictures"):
+        from matplotlib import pyplot
 
     _flat(what)
     thetas = list(np.atleast_1d(thetas))

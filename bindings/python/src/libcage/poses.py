@@ -95,6 +95,13 @@ class Pose:
         return f"({place}; wxyz {', '.join(f'{value:.6g}' for value in self.wxyz)})"
 
 
+def distance(one: Pose, other: Pose) -> tuple[float, float]:
+    """How far the places of two poses are apart, and the angle between their rotations."""
+    p, q = one.wxyz, other.wxyz
+    less = math.dist(p, q) if sum(map(math.prod, zip(p, q))) >= 0 else math.dist(p, [-v for v in q])
+    return math.dist(one.x, other.x), 4 * math.asin(min(less / 2, 1.0))
+
+
 @dataclass(frozen=True, eq=False)
 class Poses:
     """Many poses: `x` of shape (n, 2) or (n, 3), `wxyz` unit quaternions of shape (n, 4).

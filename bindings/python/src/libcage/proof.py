@@ -18,7 +18,7 @@ from . import _native
 from .errors import CageError, InputError, OutOfMemoryError
 from .frozen import frozen_array, whole
 from .grid import Grid
-from .poses import Ints, pose_of
+from .poses import Ints, Pose, pose_of
 from .result import Path, Result, Statistics, Verdict
 
 if TYPE_CHECKING:
@@ -152,10 +152,11 @@ class Proof:
         note: str,
         memory: int | None = None,
         scene: Scene | None = None,
+        asked: tuple[Pose | None, Pose | None] = (None, None),
     ) -> None:
         self.scene = scene
         self.grid, self.start, self.goal, self.limits = grid, start, goal, limits
-        self.about, self.note = about, note
+        self.about, self.note, self.asked = about, note, asked
         self.most = most_bytes(memory)
         self.seconds = 0.0
         self._lock = threading.Lock()
@@ -300,6 +301,7 @@ class Proof:
             statistics,
             self.about,
             self.note,
+            *self.asked,
         )
 
     def _certified(self, raw: _native.ResultStruct) -> bool:

@@ -11,12 +11,15 @@ import numpy as np
 
 from .errors import InputError
 from .frozen import frozen_array
-from .poses import Ints, Pose, Poses, from_grid, pose_of
+from .poses import Ints, Pose, Poses, distance, from_grid, pose_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from .scene import Scene
+
+
+NOTICED = 1e-6  # metres or radians between the pose asked and the one proved that str() tells
 
 
 class Verdict(IntEnum):
@@ -171,7 +174,9 @@ class Result:
 
     `start` and `goal` are the poses that were proved: the ones given, rounded to the grid of
     `unit` metres; `start_grid` and `goal_grid` are the same as exact integers. `about` says what
-    the verdict is a theorem about; `note` what was not looked for.
+    the verdict is a theorem about; `note` what was not looked for. `asked_start` and `asked_goal`
+    are the poses as given (None where the result was read from bytes); where what was proved is
+    noticeably elsewhere str() says so.
     """
 
     verdict: Verdict
@@ -187,10 +192,26 @@ class Result:
     statistics: Statistics
     about: str
     note: str = ""
+    asked_start: Pose | None = field(default=None, compare=False)
+    asked_goal: Pose | None = field(default=None, compare=False)
 
     def __str__(self) -> str:
         lines = [f"{self.verdict}: {self.reason}", f"about: {self.about}"]
-        return "\n".join(lines + ([f"note: {self.note}"] if self.note else []))
+        if self.note:
+            lines.append(f"note: {self.note}")
+        for name, asked, proved in (
+            ("start", self.asked_start, self.start),
+            ("goal", self.asked_goal, self.goal),
+        ):
+            if asked is None or proved is None:
+                continue
+            away, turn = distance(asked, proved)
+            if away > NOTICED or turn > NOTICED:
+                lines.append(
+                    f"{name}: asked {asked}, proved {proved}, which is {away:.3g} m and "
+                    f"{turn:.3g} rad away: the grid's unit is {self.unit:.3g} m"
+                )
+        return "\n".join(lines)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain lists and numbers: everything that is the same on every machine and with any

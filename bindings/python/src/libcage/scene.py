@@ -22,6 +22,7 @@ from .result import Margin, Result
 if TYPE_CHECKING:
     from .atlas import Atlas
 
+MOST_CELLS = 1 << 24
 SIDES = {"inner": _native.INNER, "outer": _native.OUTER, "both": _native.BOTH}
 
 
@@ -183,8 +184,20 @@ class Scene(Frozen):
             ("max_cells", max_cells),
         ):
             if value is not None:
-                most = 1 << 24 if name == "max_cells" else _native.LEVEL_MAX[self.dim]
-                setattr(limits, name, whole(value, name, -1, most))
+                most = MOST_CELLS if name == "max_cells" else _native.LEVEL_MAX[self.dim]
+                least = -1 if name == "start_level" else 0
+                setattr(limits, name, whole(value, name, least, most))
+        if limits.start_level > limits.max_level:
+            raise InputError(
+                f"start_level {limits.start_level} is more than max_level {limits.max_level}"
+            )
+        first = max(int(limits.start_level), 0)
+        least = (4 << first) - 2 if self.dim == 2 else 4 * (8 ** (first + 1) - 1) // 7
+        if limits.max_cells < least:
+            raise InputError(
+                f"max_cells: {least} or more are made down to level {first}, not "
+                f"{limits.max_cells}"
+            )
         return limits
 
     def begin(
@@ -201,9 +214,10 @@ class Scene(Frozen):
     ) -> Proof:
         """A Proof to be run step by step: see prove for the arguments."""
         scene, use, about, note = self._permit(side, insist)
-        made, first, last = scene._question(start, goal)
+        asked = read_pose(start, self.dim), None if goal is None else read_pose(goal, self.dim)
+        made, first, last = scene._question(*asked)
         limits = self._limits(use, start_level, max_level, max_cells)
-        return Proof(made, first, last, limits, about, note, memory, scene)
+        return Proof(made, first, last, limits, about, note, memory, scene, asked)
 
     def prove(
         self,
@@ -264,7 +278,8 @@ class Scene(Frozen):
         """By how much every radius may shrink before the answer changes: how tight a cage is.
 
         rounds: bisections; each halves what is left between `closed` and `open` of the Margin.
-        Other arguments as in prove. Needs both sides. This is one call into C: Ctrl-C waits for it.
+        Other arguments as in prove. Needs both sides. This is one call into C, which has no
+        form in steps: Ctrl-C waits for it, so lower `rounds` or `max_cells` where it takes long.
         """
         if side != "both":
             raise InputError("a margin is found from both sides")

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .balls import Balls
+from .extras import extra
 from .plot import placed, shown
 from .poses import Pose, PoseLike, Poses, pose as read_pose
 from .result import Path, Result
@@ -89,7 +90,8 @@ def figure(
 ) -> Any:
     """A plotly figure: obstacles, object at start and goal, and the path of `answer` as an
     animation."""
-    from plotly import graph_objects
+    with extra("pictures"):
+        from plotly import graph_objects
 
     draw = _mesh if scene.dim == 3 else _discs
     part, walls = shown(scene, "object"), shown(scene, "obstacles")

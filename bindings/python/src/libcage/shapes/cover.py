@@ -9,11 +9,14 @@ a time.
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 
 from ..errors import SolidError
 from .exact import Boundary, Floats
@@ -143,10 +146,41 @@ def _without_outside(boundary: Boundary, cells: Cells) -> Cells:
     met = np.zeros(len(cells.centre), dtype=bool)
     met[cells.element[0]] = True
     stays = met | cells.inside
-    for i in np.flatnonzero(~stays):
-        if not boundary.surely_outside(cells.centre[i]):
-            stays[i] = cells.inside[i] = True
+    free = np.flatnonzero(~stays)
+    for group in _beside(cells.centre[free], cells.half):
+        if not boundary.surely_outside(cells.centre[free[group[0]]]):
+            stays[free[group]] = cells.inside[free[group]] = True
     return cells.take(np.flatnonzero(stays))
+
+
+def _ranks(values: Index) -> Index:
+    """Smaller numbers in the same order, of which two differ by one where the values do."""
+    unique, index = np.unique(values, return_inverse=True)
+    ranks = np.concatenate([[0], np.cumsum(np.minimum(np.diff(unique), 2))])
+    return np.asarray(ranks[index.reshape(-1)])
+
+
+def _beside(centre: Floats, half: float) -> list[Index]:
+    """Cells of one size that share faces with others, in groups. Off the boundary a group is as a
+    whole inside or outside: no chain of the boundary goes around one cell and not its neighbour."""
+    if len(centre) < 2:
+        return [np.arange(len(centre))] if len(centre) else []
+    places = np.rint((centre - centre.min(axis=0)) / (2 * half)).astype(np.int64)  # exact
+    place = np.stack([_ranks(column) for column in places.T], axis=1)
+    size = place.max(axis=0) + 2
+    key = np.ravel_multi_index(tuple(place.T), tuple(size))
+    order = np.argsort(key)
+    pairs = []
+    for step in np.eye(place.shape[1], dtype=np.int64):
+        beside = np.ravel_multi_index(tuple((place + step).T), tuple(size))
+        at = np.minimum(np.searchsorted(key, beside, sorter=order), len(key) - 1)
+        there = key[order[at]] == beside
+        pairs.append(np.stack([np.flatnonzero(there), order[at[there]]]))
+    one, other = np.concatenate(pairs, axis=1)
+    graph = coo_matrix((np.ones(len(one)), (one, other)), shape=(len(key), len(key)))
+    count, label = connected_components(graph, directed=False)
+    by_label = np.argsort(label, kind="stable")
+    return np.split(by_label, np.cumsum(np.bincount(label, minlength=count))[:-1])
 
 
 def _children(cells: Cells) -> list[Cells]:
@@ -205,12 +239,20 @@ def complete(boundary: Boundary, rows: Floats, tolerance: float) -> Floats:
     centres, half = uncovered(boundary, rows, leaf)
     added = np.zeros((len(centres), boundary.dim + 1))
     count = 0
-    for centre in centres:
-        if not held(centre, half, added[:count]).any():
+    # A ball that holds a cell has its centre within a radius of the cell's, so in its box of that
+    # size or in one beside it.
+    boxes: dict[tuple[int, ...], list[int]] = {}
+    beside = np.array(list(itertools.product((-1, 0, 1), repeat=boundary.dim)))
+    places = np.floor((centres - boundary.low.min(axis=0)) / radius).astype(np.int64)
+    for centre, place in zip(centres, places):
+        around = map(tuple, (place + beside).tolist())
+        near = [number for box in around for number in boxes.get(box, ())]
+        if not held(centre, half, added[near]).any():
             added[count] = [*centre, radius]
-            count += 1
-            if not held(centre, half, added[count - 1 : count])[0]:
+            if not held(centre, half, added[count : count + 1])[0]:
                 raise SolidError(
                     "the cover could not be completed. This is a bug; please report the solid"
                 )
+            boxes.setdefault(tuple(place.tolist()), []).append(count)
+            count += 1
     return np.vstack([rows, added[:count]])

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from ..balls import Balls, Solid, exact_rows
 from ..errors import InputError, SolidError
-from ..frozen import whole
+from ..extras import extra
+from ..frozen import real_number, whole
 from . import cover
 from .exact import Boundary, Floats
 from .solids import MeshBoundary, PolygonBoundary, boundary
@@ -82,7 +83,9 @@ def verify_cover(solid: Any, balls: Any, leaf: float | None = None) -> bool:
     rows = balls.rows if isinstance(balls, Balls) else Balls(balls).rows
     if rows.shape[1] != edge.dim + 1:
         raise InputError(f"the balls have {rows.shape[1] - 1} dimensions, the solid {edge.dim}")
-    size = edge.size / 200 if leaf is None else leaf
+    size = edge.size / 200 if leaf is None else real_number(leaf, "leaf")
+    if not size > 0:
+        raise InputError(f"leaf is positive, not {size:g}")
     return not len(cover.uncovered(edge, rows, size, first=True)[0])
 
 
@@ -100,7 +103,8 @@ def inner_of(solid: Any, balls: Any) -> Balls:
 
 def _along(shape: Any, count: int) -> Floats:
     """Points along all rings, about `count`."""
-    import shapely
+    with extra("shapes"):
+        import shapely
 
     rings = shapely.get_rings(shapely.get_parts(shape))
     total = sum(ring.length for ring in rings)
@@ -116,11 +120,13 @@ def _along(shape: Any, count: int) -> Floats:
 def _distance(edge: Boundary, solid: Any, points: Floats) -> Floats:
     """Distances to the boundary in doubles, not to be trusted."""
     if isinstance(edge, MeshBoundary):
-        import igl
+        with extra("shapes"):
+            import igl
 
         square = igl.point_mesh_squared_distance(points, edge.vertices, edge.faces)[0]
         return np.sqrt(np.maximum(np.asarray(square, dtype=np.float64).reshape(-1), 0))
-    import shapely
+    with extra("shapes"):
+        import shapely
 
     result: Floats = shapely.distance(solid.boundary, shapely.points(points))
     return result
@@ -129,11 +135,13 @@ def _distance(edge: Boundary, solid: Any, points: Floats) -> Floats:
 def _inside(edge: Boundary, solid: Any, points: Floats) -> NDArray[np.bool_]:
     """Which points seem to be inside, in doubles."""
     if isinstance(edge, MeshBoundary):
-        import igl
+        with extra("shapes"):
+            import igl
 
         turns = np.asarray(igl.fast_winding_number(edge.vertices, edge.faces, points)).reshape(-1)
         return np.asarray(turns > 0.5)
-    import shapely
+    with extra("shapes"):
+        import shapely
 
     return np.asarray(shapely.contains_xy(solid, points[:, 0], points[:, 1]))
 
@@ -262,11 +270,14 @@ def fit(
     edge = boundary(solid)
     count, samples = whole(count, "count", 1, 1 << 24), whole(samples, "samples", 16, 1 << 24)
     seed = whole(seed, "seed", 0, 1 << 62)
+    tolerance = real_number(tolerance, "tolerance")
     if not tolerance >= 0:
-        raise InputError("tolerance is 0 or more")
-    reach = edge.size / 20 if outer_tolerance is None else float(outer_tolerance)
+        raise InputError(f"tolerance is 0 or more, not {tolerance:g}")
+    reach = edge.size / 20
+    if outer_tolerance is not None:
+        reach = real_number(outer_tolerance, "outer_tolerance")
     if not 0 < reach < math.inf:
-        raise InputError("outer_tolerance is positive")
+        raise InputError(f"outer_tolerance is positive, not {reach:g}")
     rng = np.random.default_rng(seed)
     surface, inside = _samples(edge, solid, samples, rng)
     rows = _thin(_candidates(edge, solid, surface, inside), 3000)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import SolidError
+from ..extras import extra
 from .exact import Boundary, Floats
 
 
@@ -18,7 +19,8 @@ class PolygonBoundary(Boundary):
     """A shapely Polygon or MultiPolygon; several polygons are their union."""
 
     def __init__(self, shape: Any) -> None:
-        import shapely
+        with extra("shapes"):
+            import shapely
 
         if shape.geom_type not in ("Polygon", "MultiPolygon"):
             raise SolidError(
