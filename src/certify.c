@@ -98,9 +98,12 @@ static bool arc_clear(const cage_scene *scene, const int32_t pivot[3], const int
         cage_i128 square = cage_i128_of(0);
         for (int32_t k = 0; k < 3; k++)
             square = cage_i128_add(square, cage_i128_mul(moved[k], moved[k]));
-        /* The root rounded up, and three times 0.87 for the rounding of both ends and of the centre; that the ends
-         * are off the arc adds less than three times 2^-5 in space, where |Y| < 2^22, and nothing in the plane. */
-        int64_t spare = (int64_t)cage_u128_root(square) + 1 + 3;
+        /* The root rounded up, and three times 0.87 for the rounding of both ends and of the centre; that the ends are off the
+         * arc adds less than 3 |Y| 2^-27 in space, nothing in the plane: 2^-5 three times while |Y| < 2^22; |Y| < 2^25. */
+        int64_t arm = 0;
+        for (int32_t k = 0; k < 3; k++)
+            arm += at[k] < 0 ? -at[k] : at[k];
+        int64_t spare = (int64_t)cage_u128_root(square) + 1 + 3 + (scene->dim == 3 ? arm >> 22 : 0);
         for (int32_t j = 0; j < scene->obstacles.outer_count; j++) {
             const cage_ball *x = &scene->obstacles.outer[j];
             const int64_t centre[3] = {x->x - at[0], x->y - at[1], x->z - at[2]};

@@ -191,9 +191,9 @@ static void print_parts(FILE *out, const host_answer *answer)
 
     (void)fprintf(out, "Parts   a check with the true shapes, by samples (%s): no proof\n", host_parts_name());
     if (check->kind != 0 && check->places == 0)
-        (void)fprintf(out, "        %s: %ld poses looked at, apart by %.3g or more at each, and nothing skipped between%s\n",
+        (void)fprintf(out, "        %s: %ld poses looked at, apart by %.3g or more at each%s\n",
                       check->kind == 1 ? "path" : "candidate", check->poses, check->least,
-                      check->whole ? "" : "; NOT to its end");
+                      check->whole ? ", and nothing skipped between" : "; NOT to its end: nothing is said of the rest");
     else if (check->kind != 0)
         (void)fprintf(out, "        %s: %ld poses looked at%s:\n", check->kind == 1 ? "path" : "candidate", check->poses,
                       check->whole ? "" : ", NOT to its end");

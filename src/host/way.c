@@ -321,7 +321,8 @@ int host_write_way(const char *path, const host_answer *answer, const host_way *
     int k, fine = file != NULL;
 
     if (fine)
-        (void)fprintf(file, dim == 2 ? "t,x,y,degrees,pivot_x,pivot_y\n" : "t,x,y,z,qw,qx,qy,qz,pivot_x,pivot_y,pivot_z\n");
+        (void)fprintf(file, dim == 2 ? "t,x,y,degrees,pivot_x,pivot_y,curve\n"
+                                        : "t,x,y,z,qw,qx,qy,qz,pivot_x,pivot_y,pivot_z,curve\n");
     for (i = 0; fine && i < way->count; i++) {
         host_pose at, pivot;
 
@@ -330,15 +331,15 @@ int host_write_way(const char *path, const host_answer *answer, const host_way *
         if (dim == 2) { /* degrees go on beyond 180: from row to row it is always the shorter way */
             heading = i == 0 ? at.degrees : heading + remainder(at.degrees - before, 360);
             before = at.degrees;
-            (void)fprintf(file, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", way->count > 1 ? (double)i / (way->count - 1) : 0.0,
-                          at.x[0], at.x[1], heading, pivot.x[0], pivot.x[1]);
+            (void)fprintf(file, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%d\n", way->count > 1 ? (double)i / (way->count - 1) : 0.0,
+                          at.x[0], at.x[1], heading, pivot.x[0], pivot.x[1], way->smooth);
         } else { /* q and -q are the same: the one nearer to that of the row before */
             sign = last[0] * at.q[0] + last[1] * at.q[1] + last[2] * at.q[2] + last[3] * at.q[3] < 0 ? -1 : 1;
             for (k = 0; k < 4; k++)
                 last[k] = at.q[k] = sign * at.q[k];
-            (void)fprintf(file, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n",
+            (void)fprintf(file, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%d\n",
                           way->count > 1 ? (double)i / (way->count - 1) : 0.0, at.x[0], at.x[1], at.x[2], at.q[0], at.q[1],
-                          at.q[2], at.q[3], pivot.x[0], pivot.x[1], pivot.x[2]);
+                          at.q[2], at.q[3], pivot.x[0], pivot.x[1], pivot.x[2], way->smooth);
         }
     }
     if (file != NULL && ferror(file))

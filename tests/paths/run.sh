@@ -30,12 +30,12 @@ memcheck="valgrind -q --suppressions=tests/libgomp.supp --error-exitcode=9 --lea
 # The CSV: a header, times from 0 to 1 that grow, as many rows as the text says.
 csv() { # COLUMNS
     awk -F, -v columns="$1" 'NR == 1 { if ($1 != "t" || NF != columns) exit 1; next }
-        NF != columns || (NR > 2 && $1 <= t) || (NR == 2 && $1 != 0) { bad = 1; exit 1 }
+        NF != columns || $NF != 1 || (NR > 2 && $1 <= t) || (NR == 2 && $1 != 0) { bad = 1; exit 1 }
         { t = $1 } END { exit bad || t != 1 || NR < 50 }' "$folder/path.csv"
 }
 smooth() { "$command" prove $t --smooth --path "$folder/path.csv" > "$folder/out" && grep -q 'smoothed: length' "$folder/out"; }
 check "prove --smooth says so" smooth
-check "its file in the plane" csv 6
+check "its file in the plane" csv 7
 json() {
     "$command" prove $t --smooth --json --svg "$folder/path.svg" > "$folder/json" &&
         python3 -c 'import json, sys
@@ -45,7 +45,7 @@ sys.exit(not (a["verdict"] == "FREE" and a["smooth"] and a["length"] < 0.9 * a["
 check "--smooth --json --svg" json
 space() {
     "$command" prove --object examples/space/guest.xyzr --obstacles examples/space/sieve.xyzr --start 0,0,0,1,0,0,0 --smooth \
-        --path "$folder/path.csv" --ply "$folder/path.ply" --quiet > "$folder/out" && csv 11
+        --path "$folder/path.csv" --ply "$folder/path.ply" --quiet > "$folder/out" && csv 12
 }
 check "its file in space" space
 undefined() { [ "$("$command" prove $p --quiet)" = UNDEFINED ]; }

@@ -22,11 +22,11 @@ from .poses import (
     Pose,
     PoseLike,
     PosesLike,
+    Poses,
     from_grid,
+    grid_rows,
     pose as read_pose,
-    poses as read_poses,
 )
-from .poses import Poses, to_grid
 from .proof import Crew, most_bytes, reachable
 from .result import Verdict
 
@@ -148,7 +148,7 @@ class Atlas(Frozen):
     # ---- questions -------------------------------------------------------------------------------
 
     def _rows(self, poses: PosesLike) -> Ints:
-        return to_grid(read_poses(poses, self.dim), self.unit)
+        return grid_rows(poses, self.dim, self.unit)
 
     def query(self, poses: PosesLike, goals: PosesLike | None = None) -> NDArray[np.int32]:
         """Verdicts as an int32 array, one for each pose: can the object leave from there, or get to

@@ -214,11 +214,16 @@ def from_xyzw(x: ArrayLike, xyzw: ArrayLike) -> Any:
     return _from_quaternions(x, xyzw, [3, 0, 1, 2])
 
 
-def from_xytheta(rows: ArrayLike) -> Poses:
-    """Poses in the plane from rows x, y, theta."""
+def _xytheta(rows: ArrayLike) -> Floats:
     array = real(rows, "poses")
     if array.ndim != 2 or array.shape[1] != 3:
         raise PoseError(f"rows x, y, theta are wanted, not an array of shape {array.shape}")
+    return array
+
+
+def from_xytheta(rows: ArrayLike) -> Poses:
+    """Poses in the plane from rows x, y, theta."""
+    array = _xytheta(rows)
     wxyz = np.zeros((len(array), 4))
     wxyz[:, 0], wxyz[:, 3] = np.cos(array[:, 2] / 2), np.sin(array[:, 2] / 2)
     return Poses(np.ascontiguousarray(array[:, :2]), wxyz)
@@ -313,6 +318,33 @@ def poses(values: PosesLike, dim: int) -> Poses:
 # ---- the grid ------------------------------------------------------------------------------------
 
 
+def _placed(x: Floats, unit: float) -> Ints:
+    """Rows as of to_grid with the places alone."""
+    dim = x.shape[1]
+    grid = np.zeros((len(x), 7), dtype=np.int32)
+    place = np.rint(x / unit)
+    near = abs(place) <= _native.REACH[dim]
+    if not near.all():
+        index = int(np.argmin(near.all(axis=1)))
+        raise PoseError(
+            f"pose {index} at {x[index].tolist()} is beyond the grid, which ends at "
+            f"{_native.REACH[dim] * unit:.6g}: use a larger unit"
+        )
+    grid[:, :dim] = place
+    return grid
+
+
+def grid_rows(values: PosesLike, dim: int, unit: float) -> Ints:
+    """to_grid of whatever the module takes; of rows x, y, theta in one go."""
+    if not (dim == 2 and isinstance(values, np.ndarray) and values.ndim == 2):
+        return to_grid(poses(values, dim), unit)
+    array = _xytheta(values)
+    grid, half = _placed(array[:, :2], unit), array[:, 2] / 2
+    grid[:, 3] = np.rint(np.cos(half) * _native.QUATERNION[2])
+    grid[:, 6] = np.rint(np.sin(half) * _native.QUATERNION[2])
+    return grid
+
+
 def to_grid(many: Poses, unit: float) -> Ints:
     """Rows x, y, z, qw, qx, qy, qz of int32, each the nearest that the grid has.
 
@@ -320,16 +352,7 @@ def to_grid(many: Poses, unit: float) -> Ints:
     the same integer. Out of reach is an error that names the first pose.
     """
     dim = many.dim
-    grid = np.zeros((len(many), 7), dtype=np.int32)
-    place = np.rint(many.x / unit)
-    far = ~(abs(place) <= _native.REACH[dim]).all(axis=1)
-    if far.any():
-        index = int(np.argmax(far))
-        raise PoseError(
-            f"pose {index} at {many.x[index].tolist()} is beyond the grid, which ends at "
-            f"{_native.REACH[dim] * unit:.6g}: use a larger unit"
-        )
-    grid[:, :dim] = place
+    grid = _placed(many.x, unit)
     turn = many.wxyz * _native.QUATERNION[dim]
     if dim == 3:
         turn /= abs(many.wxyz).max(axis=1, initial=0, keepdims=True)
