@@ -1,9 +1,6 @@
 #!/bin/sh
-# What the firmware tests need: install it when that is allowed, else say what to install.
-missing=
-need() { # PROGRAM PACKAGES
-    command -v "$1" >/dev/null 2>&1 || missing="$missing $2"
-}
+# What the firmware tests need: installed when that is allowed.
+. tests/missing.sh
 need gcc gcc
 need clang clang
 need arm-none-eabi-gcc 'gcc-arm-none-eabi picolibc-arm-none-eabi'
@@ -24,12 +21,4 @@ for specs in arm-none-eabi riscv64-unknown-elf; do
     case $missing in *picolibc-$specs*) continue ;; esac
     $specs-gcc --specs=picolibc.specs -E -x c /dev/null >/dev/null 2>&1 || missing="$missing picolibc-$specs"
 done
-[ -z "$missing" ] && exit 0
-if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null 2>&1; then
-    echo "installing:$missing"
-    DEBIAN_FRONTEND=noninteractive
-    export DEBIAN_FRONTEND
-    apt-get update -qq >/dev/null && apt-get install -y -qq --no-install-recommends $missing >/dev/null && exit 0
-fi
-echo "The firmware tests need these packages: apt-get install$missing" >&2
-exit 1
+install_missing "The firmware tests need" --no-install-recommends
