@@ -302,45 +302,62 @@ typedef struct tally {
     double raw, found;
 } tally;
 
-static void run(const known *scene, const char *examples, void *block, size_t bytes, uint64_t *rng, tally *sum)
-{
+/* A question and its answer. */
+typedef struct asked {
     host_query query;
     host_grid grid;
-    host_error error;
     host_answer answer;
     host_way way;
     cage_limits limits;
-    raw_path raw;
-    double before;
-    memset(&query, 0, sizeof query);
-    memset(&grid, 0, sizeof grid);
-    memset(&answer, 0, sizeof answer);
-    memset(&way, 0, sizeof way);
-    if (read_scene(scene, examples, &query, &grid, &error) != HOST_OK) {
+} asked;
+
+/* The scene's question, with the usual limits. */
+static void ask(const known *scene, const char *examples, asked *a)
+{
+    host_error error;
+    memset(a, 0, sizeof *a);
+    if (read_scene(scene, examples, &a->query, &a->grid, &error) != HOST_OK) {
         printf("%s: %s\n", scene->name, error.text);
         exit(2);
     }
-    cage_limits_default(&limits, query.dim);
-    limits.side = scene->side;
-    answer.query = &query;
-    answer.grid = &grid;
-    answer.limits = &limits;
+    cage_limits_default(&a->limits, a->query.dim);
+    a->answer.query = &a->query;
+    a->answer.grid = &a->grid;
+    a->answer.limits = &a->limits;
+}
+
+static void forget(asked *a)
+{
+    host_free_way(&a->way);
+    host_free_grid(&a->grid);
+    host_free_balls(&a->query.object);
+    host_free_balls(&a->query.obstacles);
+}
+
+static void run(const known *scene, const char *examples, void *block, size_t bytes, uint64_t *rng, tally *sum)
+{
+    asked a;
+    host_error error;
+    raw_path raw;
+    double before;
+    ask(scene, examples, &a);
+    a.limits.side = scene->side;
     before = host_now();
-    expect(prove(&answer, block, bytes, &raw) == 1 && answer.result->path_count > 0, scene->name, "no path was found");
-    if (answer.result->path_count > 0) {
+    expect(prove(&a.answer, block, bytes, &raw) == 1 && a.answer.result->path_count > 0, scene->name, "no path was found");
+    if (a.answer.result->path_count > 0) {
         const double proved = host_now() - before;
-        expect(host_smooth(&answer, answer.result->path, answer.result->path_count, 1, &way, &error) == HOST_OK, scene->name,
-               "host_smooth");
-        const judge j = { &grid.scene, answer.result->pivot, way.pose, way.count };
-        expect(way.smooth, scene->name, "not smoothed");
-        if (way.smooth) {
+        expect(host_smooth(&a.answer, a.answer.result->path, a.answer.result->path_count, 1, &a.way, &error) == HOST_OK,
+               scene->name, "host_smooth");
+        const judge j = { &a.grid.scene, a.answer.result->pivot, a.way.pose, a.way.count };
+        expect(a.way.smooth, scene->name, "not smoothed");
+        if (a.way.smooth) {
             const long double gap = least_gap(&j, -1);
             const double turn = sharpest(&j);
-            const double ratio = way.length / raw.length, found = way.length / way.found_length;
+            const double ratio = a.way.length / raw.length, found = a.way.length / a.way.found_length;
             const int straight = raw.length < raw.direct * (1 + 1e-6);
-            expect(raw.count > 1 && raw.length > 0.999999 * way.found_length, scene->name, "the raw path was not seen");
+            expect(raw.count > 1 && raw.length > 0.999999 * a.way.found_length, scene->name, "the raw path was not seen");
             expect(straight || raw.count > 2, scene->name, "longer than straight with one leg");
-            expect(way.length > raw.direct * (1 - 1e-6), scene->name, "shorter than a straight leg");
+            expect(a.way.length > raw.direct * (1 - 1e-6), scene->name, "shorter than a straight leg");
             sum->scenes += !straight;
             sum->straight += straight;
             sum->raw += straight ? 0 : ratio;
@@ -348,15 +365,12 @@ static void run(const known *scene, const char *examples, void *block, size_t by
             expect(gap > -1e-3L, scene->name, "the judge finds a collision");
             expect(turn < 30, scene->name, "it has a corner");
             printf("      %-22s %3d raw poses, %3d rows, length %.3f of raw, %.3f of shortened, gap %.3Lg units, turns %.1f "
-                   "degrees a row; %.1f + %.1f s\n", scene->name, (int)raw.count, (int)way.count, ratio, found, gap, turn, proved,
-                   host_now() - before - proved);
-            mutate(scene->name, &answer, &way, rng);
+                   "degrees a row; %.1f + %.1f s\n", scene->name, (int)raw.count, (int)a.way.count, ratio, found, gap, turn,
+                   proved, host_now() - before - proved);
+            mutate(scene->name, &a.answer, &a.way, rng);
         }
     }
-    host_free_way(&way);
-    host_free_grid(&grid);
-    host_free_balls(&query.object);
-    host_free_balls(&query.obstacles);
+    forget(&a);
 }
 
 /* What a candidate is: a decomposable way from start to goal through the steps that it names, on which a ball is no deeper in an
@@ -388,46 +402,28 @@ static void judge_candidate(const known *scene, const host_answer *answer, const
 /* Asked with cells so coarse that the answer is UNDEFINED: does the candidate become a path? */
 static void try_candidate(const known *scene, const char *examples, void *block, size_t bytes, int leads)
 {
-    host_query query;
-    host_grid grid;
+    asked a;
     host_error error;
-    host_answer answer;
-    host_way way;
     host_candidate candidate;
-    cage_limits limits;
     raw_path raw;
-    memset(&query, 0, sizeof query);
-    memset(&grid, 0, sizeof grid);
-    memset(&answer, 0, sizeof answer);
-    memset(&way, 0, sizeof way);
-    if (read_scene(scene, examples, &query, &grid, &error) != HOST_OK) {
-        printf("%s: %s\n", scene->name, error.text);
-        exit(2);
-    }
-    cage_limits_default(&limits, query.dim);
-    limits.max_level = scene->level;
-    answer.query = &query;
-    answer.grid = &grid;
-    answer.limits = &limits;
-    expect(prove(&answer, block, bytes, &raw) == 1 && answer.result->verdict == CAGE_UNDEFINED, scene->name, "not UNDEFINED");
-    expect(host_find_candidate(&answer, &candidate, &error) == HOST_OK && candidate.count > 1, scene->name, "no candidate");
+    ask(scene, examples, &a);
+    a.limits.max_level = scene->level;
+    expect(prove(&a.answer, block, bytes, &raw) == 1 && a.answer.result->verdict == CAGE_UNDEFINED, scene->name, "not UNDEFINED");
+    expect(host_find_candidate(&a.answer, &candidate, &error) == HOST_OK && candidate.count > 1, scene->name, "no candidate");
     if (candidate.count > 1) {
-        expect(host_look_at_candidate(&answer, &candidate, &error) == HOST_OK, scene->name, "memory");
-        judge_candidate(scene, &answer, &candidate);
-        expect(host_smooth(&answer, candidate.pose, candidate.count, 0, &way, &error) == HOST_OK, scene->name, "host_smooth");
-        expect((way.count > 0) == leads, scene->name, leads ? "the candidate was not certified" : "a closed way was certified");
-        if (way.count > 0) {
-            const judge j = { &grid.scene, answer.result->pivot, way.pose, way.count };
+        expect(host_look_at_candidate(&a.answer, &candidate, &error) == HOST_OK, scene->name, "memory");
+        judge_candidate(scene, &a.answer, &candidate);
+        expect(host_smooth(&a.answer, candidate.pose, candidate.count, 0, &a.way, &error) == HOST_OK, scene->name, "host_smooth");
+        expect((a.way.count > 0) == leads, scene->name, leads ? "the candidate was not certified" : "a closed way was certified");
+        if (a.way.count > 0) {
+            const judge j = { &a.grid.scene, a.answer.result->pivot, a.way.pose, a.way.count };
             expect(least_gap(&j, -1) > -1e-3L, scene->name, "the judge finds a collision");
-            expect(cage_path_check(&grid.scene, &grid.start, query.has_goal ? &grid.goal : NULL, answer.result->pivot, way.pose,
-                                   way.count) == 1, scene->name, "the check refuses it");
+            expect(cage_path_check(&a.grid.scene, &a.grid.start, a.query.has_goal ? &a.grid.goal : NULL, a.answer.result->pivot,
+                                   a.way.pose, a.way.count) == 1, scene->name, "the check refuses it");
         }
     }
     host_free_candidate(&candidate);
-    host_free_way(&way);
-    host_free_grid(&grid);
-    host_free_balls(&query.object);
-    host_free_balls(&query.obstacles);
+    forget(&a);
 }
 
 int main(int argc, char **argv)
