@@ -97,9 +97,9 @@ $(eval $(call test_build,build/sanitized,$(SANITIZE)))
 TEST_BIN = $(TESTS:tests/%.c=build/test/%)
 SANI_BIN = $(TESTS:tests/%.c=build/sanitized/%)
 
-test: build/cage lib shared ## install what the tests need (when it may), build and run everything
+test: ## install what the tests need (when it may), build and run everything
 	sh tests/deps.sh
-	$(MAKE) --no-print-directory -j2 -s $(TEST_BIN) $(SANI_BIN) build/prove_in_c
+	$(MAKE) --no-print-directory -j2 -s build/cage lib shared $(TEST_BIN) $(SANI_BIN) build/prove_in_c
 	sh tests/run.sh
 
 check-python: ## build the Python package, and test it in an environment of its own with what PyPI has

@@ -26,6 +26,9 @@ struct cage_move {
 
 enum { NO_POINT = -1, UNKNOWN_HOME = -2 };
 
+/* Balls move far if by more than 6 tenths of a radius: |by|^2 / 4 > 9 r^2 / 100. */
+enum { FAR = 9 };
+
 /* A component of so few simplices is small; its spread ends, undecided, when it is so long. */
 enum { SMALL = 32, LONG = 256 };
 
@@ -54,19 +57,23 @@ static int64_t weight_of(const struct cage_view *view, int32_t site)
 int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, const int32_t *match,
                        struct cage_view *view)
 {
-    struct cage_view made = {c, d, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0, 0, CAGE_COVERED, false};
+    struct cage_view made = {c, d, NULL, NULL, NULL, NULL, NULL, NULL, 0, 0, CAGE_COVERED, false, false};
+    int64_t longest = 0, radius = 0;
     made.move = cage_arena_take(arena, (size_t)c->parts, sizeof *made.move);
     made.reached = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.reached);
     made.queue = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.queue);
-    made.used = cage_arena_take(arena, (size_t)c->t.sites, sizeof *made.used);
     made.solid = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.solid);
     made.home = cage_arena_take(arena, (size_t)d->regions, sizeof *made.home);
     made.off = cage_arena_take(arena, (size_t)d->regions, sizeof *made.off);
-    if (!made.move || !made.reached || !made.queue || !made.used || !made.solid || !made.home || !made.off)
+    if (!made.move || !made.reached || !made.queue || !made.solid || !made.home || !made.off)
         return CAGE_ERROR_MEMORY;
-    for (int32_t i = 0; i < c->parts; i++)
+    for (int32_t i = 0; i < c->parts; i++) {
         made.move[i] = move_of(&c->part[i], &d->part[match ? match[i] : i]);
-    memset(made.used, 0, (size_t)c->t.sites * sizeof *made.used);
+        longest = made.move[i].sag > longest ? made.move[i].sag : longest;
+    }
+    for (int32_t i = c->t.dim + 1; i < c->t.sites; i++)
+        radius = c->t.site[i].r > radius ? c->t.site[i].r : radius;
+    made.far = longest / FAR > radius * radius / 100;
     memset(made.reached, 0, (size_t)c->t.simplices * sizeof *made.reached);
     memset(made.solid, -1, (size_t)c->t.simplices * sizeof *made.solid);
     for (int32_t l = 0; l < d->regions; l++) {
@@ -153,21 +160,6 @@ static void reach_first(struct cage_view *view, int32_t k)
             reach(view, s);
 }
 
-void cage_view_collect(struct cage_view *view, int32_t k)
-{
-    const struct cage_triangulation *t = &view->c->t;
-    view->spreads++;
-    view->from = CAGE_COVERED;
-    view->length = 0;
-    reach_first(view, k);
-    for (int32_t n = 0; n < view->length; n++)
-        for (int32_t i = 0; i <= t->dim; i++) {
-            int32_t twin = t->simplex[view->queue[n]].twin[i];
-            if (twin != CAGE_HULL && view->reached[twin >> 2] != view->spreads && view->c->label[twin >> 2] == k)
-                reach(view, twin >> 2);
-        }
-}
-
 /* Find R for component k. */
 static void spread(struct cage_view *view, int32_t k)
 {
@@ -217,25 +209,13 @@ static bool is_off(struct cage_view *view, int32_t l)
     return view->off[l];
 }
 
-/* Is a small component of d, whose point is in the simplex, within one of that one's balls? */
+/* Is a component of d, whose point is in the simplex, within one of that one's balls? */
 static bool is_held(const struct cage_view *view, int32_t l, int32_t simplex)
 {
-    const struct cage_slice *d = view->d;
     struct cage_box box;
-    int32_t part[SMALL], parts = 1;
-    if (l == CAGE_OUTSIDE || d->region[l].size > SMALL)
+    if (l == CAGE_OUTSIDE)
         return false;
-    part[0] = d->region[l].deep;
-    for (int32_t n = 0; n < parts; n++)
-        for (int32_t i = 0; i <= d->t.dim; i++) {
-            int32_t next = d->t.simplex[part[n]].twin[i] >> 2, known = 0; /* no hull facet: it is bounded */
-            while (known < parts && part[known] != next)
-                known++;
-            if (known == parts && d->label[next] == l)
-                part[parts++] = next; /* parts <= size */
-        }
-    if (!cage_box_make(d, part, parts, &box))
-        return false;
+    cage_box_of(view->d->t.dim, &view->d->region[l].bounds, &box);
     for (int32_t i = 0; i <= view->c->t.dim; i++) {
         int32_t v = view->c->t.simplex[simplex].v[i];
         if (v > view->c->t.dim && cage_box_is_held(&box, &view->c->t.site[v]))
@@ -244,34 +224,39 @@ static bool is_held(const struct cage_view *view, int32_t l, int32_t simplex)
     return false;
 }
 
-static bool is_apart(struct cage_view *view, int32_t k, int32_t l)
+/* The simplex of c that holds the known point of l; -1: there is none. */
+static int32_t home_of(struct cage_view *view, int32_t l)
 {
+    if (view->home[l] == UNKNOWN_HOME)
+        view->home[l] = cage_delaunay_locate(&view->c->t, view->d->region[l].point, 0);
+    return view->home[l];
+}
+
+bool cage_view_is_apart(struct cage_view *view, int32_t k, int32_t l)
+{
+    int32_t home = home_of(view, l);
+    if (home >= 0 && is_held(view, l, home))
+        return true;
     if (view->from != k)
         spread(view, k);
     if (view->outer && k != CAGE_OUTSIDE)
         return false;
     if (l == CAGE_OUTSIDE)
         return true;
-    return view->home[l] >= 0 && view->reached[view->home[l]] != view->spreads &&
-           (is_off(view, l) || !may_meet(view, view->d->region[l].point));
+    return home >= 0 && view->reached[home] != view->spreads && (is_off(view, l) || !may_meet(view, view->d->region[l].point));
 }
 
-int32_t cage_view_decide(struct cage_view *view, int32_t k, int32_t l, int32_t x[3])
+bool cage_view_is_touching(struct cage_view *view, int32_t k, int32_t l, int32_t x[3])
 {
     const struct cage_region *a = &view->c->region[k], *b = &view->d->region[l];
     const int32_t *point = NULL;
-    if (view->home[l] == UNKNOWN_HOME)
-        view->home[l] = cage_delaunay_locate(&view->c->t, b->point, 0);
-    bool both_outside = k == CAGE_OUTSIDE && l == CAGE_OUTSIDE; /* these touch */
-    if (!both_outside && ((view->home[l] >= 0 && is_held(view, l, view->home[l])) || is_apart(view, k, l)))
-        return CAGE_APART;
-    if (both_outside)
+    if (k == CAGE_OUTSIDE && l == CAGE_OUTSIDE)
         point = a->point[1] > b->point[1] ? a->point : b->point; /* above both bounding boxes */
-    else if (view->home[l] >= 0 && view->c->label[view->home[l]] == k && is_off(view, l))
+    else if (home_of(view, l) >= 0 && view->c->label[view->home[l]] == k && is_off(view, l))
         point = b->point;
     else if (a->known && cage_slice_locate(view->d, a->point) == l)
         point = a->point;
     for (int32_t i = 0; point && i < 3; i++)
         x[i] = point[i];
-    return point ? CAGE_TOUCHING : CAGE_UNDECIDED;
+    return point;
 }

@@ -1,39 +1,21 @@
-/* box: around a component.
- *
- * Points of the component in one of its simplices are nearer to the simplex' orthocentre than the root of that one's power:
- * the powers of its vertices, weighed by barycentric coordinates, add up to that power less the squared distance, and at
- * a free point all of them are positive. */
+/* box: around points of a slice. */
 #include "box.h"
-#include "grid.h"
 
-static void widen_box(struct cage_box *box, int32_t dim, const int32_t at[3], int64_t by)
+static const int32_t AXIS[3] = {CAGE_ALONG_X, CAGE_ALONG_Y, CAGE_ALONG_Z};
+
+void cage_box_common(int32_t dim, const struct cage_bounds *a, const struct cage_bounds *b, struct cage_box *box)
 {
+    box->low[2] = box->high[2] = 0; /* the plane is flat */
     for (int32_t k = 0; k < dim; k++) {
-        box->low[k] = at[k] - by < box->low[k] ? at[k] - by : box->low[k];
-        box->high[k] = at[k] + by > box->high[k] ? at[k] + by : box->high[k];
+        int32_t i = AXIS[k];
+        box->low[k] = a->low[i] > b->low[i] ? a->low[i] : b->low[i];
+        box->high[k] = a->high[i] < b->high[i] ? a->high[i] : b->high[i];
     }
 }
 
-bool cage_box_make(const struct cage_slice *slice, const int32_t *simplex, int32_t simplices, struct cage_box *box)
+void cage_box_of(int32_t dim, const struct cage_bounds *bounds, struct cage_box *box)
 {
-    const struct cage_triangulation *t = &slice->t;
-    for (int32_t k = 0; k < 3; k++) {
-        box->low[k] = k < t->dim ? INT64_MAX : 0; /* the plane is flat */
-        box->high[k] = k < t->dim ? INT64_MIN : 0;
-    }
-    for (int32_t i = 0; i < simplices; i++) {
-        const struct cage_site *v[4];
-        struct cage_centre centre;
-        int32_t at[3];
-        cage_simplex_sites(t, simplex[i], v);
-        cage_orthocentre(t->dim, v, &centre);
-        if (!cage_centre_point(t->dim, &centre, at))
-            return false;
-        const int32_t from[3] = {at[0] - v[0]->x, at[1] - v[0]->y, at[2] - v[0]->z}; /* < 2^29 */
-        int64_t away = (int64_t)cage_length(from) + 1, square = away * away - (int64_t)v[0]->r * v[0]->r; /* at: < 1 off */
-        widen_box(box, t->dim, at, square > 0 ? (int64_t)cage_u128_root(cage_i128_of(square)) + 2 : 2);
-    }
-    return simplices > 0;
+    cage_box_common(dim, bounds, bounds, box);
 }
 
 bool cage_box_is_held(const struct cage_box *box, const struct cage_site *ball)

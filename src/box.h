@@ -1,17 +1,17 @@
-/* box: around a component. */
+/* box: around points of a slice. */
 #ifndef CAGE_BOX_H
 #define CAGE_BOX_H
 
-#include "slice.h"
+#include "piece.h"
 
 /* Sides are closed; |low|, |high| < 2^30. */
 struct cage_box {
     int64_t low[3], high[3];
 };
 
-/* A box that holds the component whose simplices these are (all of them, none with a sentinel); false: there is none
- * to be had. */
-bool cage_box_make(const struct cage_slice *slice, const int32_t *simplex, int32_t simplices, struct cage_box *box);
+/* Around what is within the bounds, and around what is within both. */
+void cage_box_of(int32_t dim, const struct cage_bounds *bounds, struct cage_box *box);
+void cage_box_common(int32_t dim, const struct cage_bounds *a, const struct cage_bounds *b, struct cage_box *box);
 
 /* Does the closed ball meet it (or nearly)? */
 static CAGE_INLINE bool cage_box_meets(const struct cage_box *box, const struct cage_site *ball)

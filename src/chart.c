@@ -27,7 +27,7 @@ struct frame {
     int32_t opens;
 };
 
-/* A free simplex, the box around it, its component or PHANTOM. */
+/* A free simplex, a box around what may be free in it, its component or PHANTOM. */
 struct bounds {
     int32_t low[3], high[3];
     int32_t simplex;
@@ -93,10 +93,20 @@ static CAGE_INLINE void widen(struct bounds *bounds, int32_t k, int32_t at, bool
     bounds->high[k] = first || at > bounds->high[k] ? at : bounds->high[k];
 }
 
+static void cut_to_ball(struct bounds *bounds, const struct cage_orthoball *ball)
+{
+    for (int32_t k = 0; k < 3; k++) { /* < 2^30 + 2^28; in the plane 0 is within */
+        int32_t low = ball->at[k] - ball->radius, high = ball->at[k] + ball->radius;
+        bounds->low[k] = low > bounds->low[k] ? low : bounds->low[k];
+        bounds->high[k] = high < bounds->high[k] ? high : bounds->high[k];
+    }
+}
+
 /* All free simplices. One may be free as far as the balls triangulated go, and covered by one that was left out (see prune.h). */
 static void find_free(struct draft *draft)
 {
     const struct cage_triangulation *t = draft->t;
+    const struct cage_orthoball *ball = draft->slice->orthoball;
     bool all = draft->slice->balls == t->sites - t->dim - 1;
     for (int32_t s = 0; s < t->simplices; s++) {
         int32_t label = draft->slice->label[s];
@@ -109,6 +119,8 @@ static void find_free(struct draft *draft)
             widen(&made, 1, site->y, i == 0);
             widen(&made, 2, site->z, i == 0);
         }
+        if (label > CAGE_OUTSIDE)
+            cut_to_ball(&made, ball++);
         draft->open[draft->openings] = draft->openings;
         draft->opening[draft->openings++] = made;
     }
@@ -127,27 +139,12 @@ static int32_t nearby(const struct draft *draft, const struct cage_box *box, con
     return kept;
 }
 
-/* Those that meet the box as far as their components differ: with one component all that are near. */
-static int32_t meet(struct draft *draft, const struct cage_box *box, const int32_t *open, int32_t opens)
-{
-    int32_t count = 0;
-    bool differ = false;
-    for (int32_t i = 0; i < opens; i++)
-        differ = differ || draft->opening[open[i]].label != draft->opening[open[0]].label;
-    for (int32_t i = 0; i < opens; i++)
-        if (!differ || !is_beyond(draft, draft->opening[open[i]].simplex, box))
-            draft->met[count++] = open[i];
-    return count;
-}
-
-/* The component that most of them are of; the outside if any is, as it alone has simplices with a sentinel. */
-static int32_t usual(const struct draft *draft, int32_t count)
+/* The label that most of them have (more than half, if there is one such). */
+static int32_t usual(const struct draft *draft, const int32_t *open, int32_t opens)
 {
     int32_t best = CAGE_COVERED, votes = 0;
-    for (int32_t i = 0; i < count; i++) {
-        int32_t label = draft->opening[draft->met[i]].label;
-        if (label == CAGE_OUTSIDE)
-            return label;
+    for (int32_t i = 0; i < opens; i++) {
+        int32_t label = draft->opening[open[i]].label;
         votes += label == best ? 1 : -1; /* Boyer, Moore, "MJRTY", 1991 */
         if (votes < 0) {
             best = label;
@@ -155,6 +152,42 @@ static int32_t usual(const struct draft *draft, int32_t count)
         }
     }
     return best;
+}
+
+/* Does one of that label meet the box? */
+static bool has_met(const struct draft *draft, const struct cage_box *box, const int32_t *open, int32_t opens, int32_t label)
+{
+    bool met = false;
+    for (int32_t i = 0; i < opens && !met; i++)
+        met = draft->opening[open[i]].label == label && !is_beyond(draft, draft->opening[open[i]].simplex, box);
+    return met;
+}
+
+/* The label of what is free in the box and in none of draft->met, all those of other labels that meet the box; *met: their
+ * number. It is the outside if that is met, as it alone has simplices with a sentinel. */
+static int32_t meet(struct draft *draft, const struct cage_box *box, const int32_t *open, int32_t opens, int32_t *met)
+{
+    int32_t label = usual(draft, open, opens);
+    bool differ = false;
+    *met = 0;
+    for (int32_t i = 0; i < opens; i++)
+        differ = differ || draft->opening[open[i]].label != label;
+    if (!differ)
+        return label;
+    if (label != CAGE_OUTSIDE && has_met(draft, box, open, opens, CAGE_OUTSIDE))
+        label = CAGE_OUTSIDE;
+    for (int32_t i = 0; i < opens; i++)
+        if (draft->opening[open[i]].label != label && !is_beyond(draft, draft->opening[open[i]].simplex, box))
+            draft->met[(*met)++] = open[i];
+    if (has_met(draft, box, open, opens, label))
+        return label;
+    label = usual(draft, draft->met, *met);
+    opens = *met;
+    *met = 0;
+    for (int32_t i = 0; i < opens; i++)
+        if (draft->opening[draft->met[i]].label != label)
+            draft->met[(*met)++] = draft->met[i];
+    return label;
 }
 
 /* ---- which balls matter in a box ------------------------------------------------------------------------ */
@@ -234,12 +267,17 @@ static int32_t list_word(struct draft *draft, const uint32_t *list, int32_t leng
     return at;
 }
 
-/* The entry of a box in which these balls matter, with those simplices that are not of the usual component; or HALVE, or
- * NO_ROOM. */
-static int64_t list_entry(struct draft *draft, const int32_t *site, int32_t balls, int32_t met)
+/* The entry of a box in which these balls matter, and the simplices met that are not of the label; or HALVE, or NO_ROOM. */
+static int64_t list_entry(struct draft *draft, const int32_t *site, int32_t balls, int32_t label, int32_t met)
 {
     uint32_t *list = draft->making;
-    int32_t length = 2, simplices = 0, label = usual(draft, met);
+    int32_t length = 2;
+    if (met > CAGE_CHART_SIMPLICES)
+        return HALVE;
+    if (label == PHANTOM)
+        label = CAGE_COVERED;
+    if (label == CAGE_COVERED && met == 0)
+        return entry_of(CAGE_CHART_LABEL, 0);
     for (int32_t i = 0; i < balls; i++) {
         int32_t at = ball_word(draft, site[i]);
         if (at == NO_WORD)
@@ -248,10 +286,6 @@ static int64_t list_entry(struct draft *draft, const int32_t *site, int32_t ball
     }
     for (int32_t i = 0; i < met; i++) {
         int32_t s = draft->opening[draft->met[i]].simplex, other = draft->opening[draft->met[i]].label;
-        if (other == label)
-            continue;
-        if (simplices++ == CAGE_CHART_SIMPLICES)
-            return HALVE;
         list[length++] = (uint32_t)(other == PHANTOM ? CAGE_COVERED : other);
         for (int32_t k = 0; k <= draft->t->dim; k++) {
             int32_t at = ball_word(draft, draft->t->simplex[s].v[k]);
@@ -260,11 +294,7 @@ static int64_t list_entry(struct draft *draft, const int32_t *site, int32_t ball
             list[length++] = (uint32_t)at;
         }
     }
-    if (label == PHANTOM)
-        label = CAGE_COVERED;
-    if (label == CAGE_COVERED && simplices == 0)
-        return entry_of(CAGE_CHART_LABEL, 0);
-    list[0] = (uint32_t)simplices << 16 | (uint32_t)balls;
+    list[0] = (uint32_t)met << 16 | (uint32_t)balls;
     list[1] = (uint32_t)label;
     int32_t at = list_word(draft, list, length);
     return at == NO_WORD ? NO_ROOM : (int64_t)entry_of(CAGE_CHART_LIST, at);
@@ -298,7 +328,10 @@ static int64_t settle(struct draft *draft, const struct cage_box *box, const int
     }
     if (box->low[0] == box->high[0] && box->low[1] == box->high[1] && box->low[2] == box->high[2])
         return entry_of(CAGE_CHART_LABEL, 1 + cage_slice_locate(draft->slice, point));
-    return count > most ? HALVE : list_entry(draft, site, count, meet(draft, box, open, opens));
+    if (count > most)
+        return HALVE;
+    int32_t met, label = meet(draft, box, open, opens, &met);
+    return list_entry(draft, site, count, label, met);
 }
 
 /* Write the entries of all halves below the frame, depth first. False: no room. */

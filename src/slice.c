@@ -94,6 +94,28 @@ static void find_point(const struct cage_slice *slice, int32_t component, int32_
                     (cage_centre_is_wide(&centre, largest) || cage_slice_clear(slice, region->point));
 }
 
+/* Where the bounded components are: among the balls, so that the orthocentres are within CAGE_REACH too. */
+static int32_t find_orthoballs(struct cage_arena *arena, struct cage_slice *slice)
+{
+    slice->orthoballs = 0;
+    for (int32_t k = 0; k < slice->regions; k++) {
+        cage_bounds_none(&slice->region[k].bounds);
+        slice->orthoballs += k == CAGE_OUTSIDE ? 0 : slice->region[k].size;
+    }
+    slice->orthoball = cage_arena_take(arena, (size_t)slice->orthoballs, sizeof *slice->orthoball);
+    if (!slice->orthoball)
+        return CAGE_ERROR_MEMORY;
+    for (int32_t s = 0, i = 0; s < slice->t.simplices; s++) {
+        struct cage_bounds bounds;
+        if (slice->label[s] <= CAGE_OUTSIDE)
+            continue;
+        cage_orthoball_of(&slice->t, s, &slice->orthoball[i]);
+        cage_bounds_of(&slice->t, &slice->orthoball[i++], &bounds);
+        cage_bounds_add(slice->t.dim, &slice->region[slice->label[s]].bounds, &bounds);
+    }
+    return CAGE_OK;
+}
+
 /* The top of the balls' bounding box is off every ball: centres and radii add up to less than CAGE_REACH. */
 static void find_outside_point(const struct cage_slice *slice)
 {
@@ -111,7 +133,7 @@ static void find_outside_point(const struct cage_slice *slice)
 static size_t padded(size_t bytes) { return (bytes + CAGE_ALIGN - 1) / CAGE_ALIGN * CAGE_ALIGN; }
 
 /* The arrays of a slice in the order in which they are packed. */
-static void array_sizes(const struct cage_slice *s, size_t size[6])
+static void array_sizes(const struct cage_slice *s, size_t size[7])
 {
     size[0] = padded((size_t)s->t.sites * sizeof *s->t.site);
     size[1] = padded((size_t)s->t.sites * sizeof *s->t.ball);
@@ -119,11 +141,12 @@ static void array_sizes(const struct cage_slice *s, size_t size[6])
     size[3] = padded((size_t)s->t.simplices * sizeof *s->label);
     size[4] = padded((size_t)s->parts * sizeof *s->part);
     size[5] = padded((size_t)s->regions * sizeof *s->region);
+    size[6] = padded((size_t)s->orthoballs * sizeof *s->orthoball);
 }
 
 void cage_slice_pack(const struct cage_slice *slice, void *block, struct cage_slice *out)
 {
-    size_t size[6];
+    size_t size[7];
     unsigned char *at = block;
     array_sizes(slice, size);
     *out = *slice;
@@ -144,6 +167,9 @@ void cage_slice_pack(const struct cage_slice *slice, void *block, struct cage_sl
     at += size[4];
     memcpy(at, slice->region, (size_t)slice->regions * sizeof *slice->region);
     out->region = (struct cage_region *)(void *)at;
+    at += size[5];
+    memcpy(at, slice->orthoball, (size_t)slice->orthoballs * sizeof *slice->orthoball);
+    out->orthoball = (struct cage_orthoball *)(void *)at;
 }
 
 static int32_t make(struct cage_arena *arena, const struct cage_side *side, const struct cage_rotations *rotations,
@@ -196,9 +222,12 @@ static int32_t make(struct cage_arena *arena, const struct cage_side *side, cons
     for (int32_t s = 0; s < out->t.simplices; s++)
         if (out->label[s] != CAGE_COVERED)
             out->region[out->label[s]].size++;
-    size_t size[6];
+    error = find_orthoballs(arena, out);
+    if (error != CAGE_OK)
+        return error;
+    size_t size[7];
     array_sizes(out, size);
-    out->bytes = size[0] + size[1] + size[2] + size[3] + size[4] + size[5];
+    out->bytes = size[0] + size[1] + size[2] + size[3] + size[4] + size[5] + size[6];
     return CAGE_OK;
 }
 

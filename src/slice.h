@@ -5,6 +5,7 @@
 #include "body.h"
 #include "component.h"
 #include "grid.h"
+#include "piece.h"
 
 /* The rotations that a slice speaks for: all within `turn` (see cage_turn) of q. */
 struct cage_rotations {
@@ -20,12 +21,13 @@ struct cage_part {
 };
 
 /* A component: `deep` is one of its simplices (-1: it has none without a sentinel), `size` their number, and if `known`,
- * `point` is a grid point in it, off every closed ball. The outside has one always. */
+ * `point` is a grid point in it, off every closed ball. The outside has one always. If it is bounded it lies within the bounds. */
 struct cage_region {
     int32_t deep;
     int32_t size;
     int32_t known;
     int32_t point[3];
+    struct cage_bounds bounds;
 };
 
 /* One block of memory, self-contained. */
@@ -34,6 +36,8 @@ struct cage_slice {
     int32_t *label;              /* of each simplex: CAGE_COVERED, CAGE_OUTSIDE, 1.. */
     struct cage_part *part;
     struct cage_region *region;
+    struct cage_orthoball *orthoball; /* of each simplex of a bounded component, in their order */
+    int32_t orthoballs;
     int32_t regions;
     int32_t parts;
     int64_t balls; /* collision balls, those left out included */

@@ -137,28 +137,15 @@ static int32_t measure(struct cage_survey *survey, const struct cage_slice *slic
     memset(extent, 0, (size_t)slice->regions * sizeof *extent);
     for (int32_t k = 0; k < slice->regions; k++) {
         const struct cage_region *region = &slice->region[k];
+        struct cage_box box = {{0, 0, 0}, {0, 0, 0}};
         extent[k].known = region->known;
-        for (int32_t i = 0; i < 3; i++) {
-            extent[k].low[i] = k == CAGE_OUTSIDE ? 0 : INT32_MAX;
-            extent[k].high[i] = k == CAGE_OUTSIDE ? 0 : INT32_MIN;
+        if (k != CAGE_OUTSIDE)
+            cage_box_of(slice->t.dim, &region->bounds, &box);
+        for (int32_t i = 0; i < 3; i++) { /* a bounded component lies among the balls, within CAGE_REACH */
+            extent[k].low[i] = (int32_t)box.low[i];
+            extent[k].high[i] = (int32_t)box.high[i];
             extent[k].at[i] = region->known ? region->point[i] : 0;
         }
-    }
-    int32_t reach = slice->t.dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
-    for (int32_t s = 0; s < slice->t.simplices; s++) {
-        struct cage_box box;
-        if (slice->label[s] <= CAGE_OUTSIDE)
-            continue;
-        bool boxed = cage_box_make(slice, &s, 1, &box);
-        struct cage_extent *e = &extent[slice->label[s]];
-        for (int32_t i = 0; i < slice->t.dim; i++) { /* a bounded component lies among the balls, within CAGE_REACH */
-            int64_t low = boxed && box.low[i] > -reach ? box.low[i] : -reach;
-            int64_t high = boxed && box.high[i] < reach ? box.high[i] : reach;
-            e->low[i] = low < e->low[i] ? (int32_t)low : e->low[i];
-            e->high[i] = high > e->high[i] ? (int32_t)high : e->high[i];
-        }
-        for (int32_t i = slice->t.dim; i < 3; i++)
-            e->low[i] = e->high[i] = 0;
     }
     *out = extent;
     return CAGE_OK;

@@ -54,9 +54,23 @@ int64_t cage_i128_floor(cage_i128 a, cage_i128 b, int64_t limit)
     return negative ? -value : value;
 }
 
+/* Digit by digit, without a product: what is left of a is always a less the square of the root so far. */
+static uint64_t short_root(uint64_t a)
+{
+    uint64_t root = 0;
+    for (uint64_t bit = (uint64_t)1 << (cage_u64_bits(a | 1) - 1) / 2 * 2; bit > 0; bit >>= 2) {
+        uint64_t next = root + bit, fits = (uint64_t)0 - (a >= next); /* all bits, or none */
+        a -= next & fits;
+        root = (root >> 1) + (bit & fits);
+    }
+    return root;
+}
+
 uint64_t cage_u128_root(cage_i128 a)
 {
     uint64_t root = 0; /* < 2^63, so root^2 fits */
+    if (cage_i128_high(a) == 0)
+        return short_root(cage_i128_low(a));
     for (uint32_t bit = (cage_u128_bits(a) + 1) / 2; bit-- > 0;) {
         uint64_t next = root | (uint64_t)1 << bit;
         if (cage_i128_compare(cage_u64_mul(next, next), a) <= 0)

@@ -148,7 +148,7 @@ END_TEST
 
 START_TEST(glues_where_balls_vanish)
 {
-    glue_all(pockets_vanish, _i, test_rounds(1500), 3, 5);
+    glue_all(pockets_vanish, _i, test_rounds(1500), 2, 5);
 }
 END_TEST
 
