@@ -1,7 +1,7 @@
 # libcage: `make demo` and `make test` do everything; `make help` lists the rest.
 
 # make presets CC; say CC=clang (or CFLAGS=...) on the command line to choose another.
-CFLAGS  = -O2 -g
+CFLAGS  = -O3 -g
 WARN    = -Wall -Wextra -Wconversion -Wshadow -pedantic -Werror
 PREFIX  = /usr/local
 DESTDIR =

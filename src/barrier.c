@@ -18,10 +18,17 @@
 #include <string.h>
 
 /* How the balls of one object ball move. */
-struct cage_move {
+struct move {
     int64_t by[3];
     int64_t sag;    /* what interpolation takes from their weights */
     int64_t change; /* of their radii */
+};
+
+/* A site: where it arrives in d, and its least weight on the way, less what interpolation takes; -1: it is a sentinel, or there is no
+ * such ball in d. */
+struct cage_mover {
+    int64_t at[3];
+    int64_t weight;
 };
 
 enum { NO_POINT = -1, UNKNOWN_HOME = -2 };
@@ -32,9 +39,9 @@ enum { FAR = 9 };
 /* A component of so few simplices is small; its spread ends, undecided, when it is so long. */
 enum { SMALL = 32, LONG = 256 };
 
-static struct cage_move move_of(const struct cage_part *from, const struct cage_part *to)
+static struct move move_of(const struct cage_part *from, const struct cage_part *to)
 {
-    struct cage_move move = {{0, 0, 0}, 3, to->change - from->change};
+    struct move move = {{0, 0, 0}, 3, to->change - from->change};
     for (int32_t i = 0; i < 3; i++) { /* |by| < 2 |y| + 2: squares < 2^58 */
         move.by[i] = (int64_t)from->at[i] - to->at[i];
         move.sag += move.by[i] * move.by[i];
@@ -43,15 +50,13 @@ static struct cage_move move_of(const struct cage_part *from, const struct cage_
     return move;
 }
 
-/* The least weight of a site on its way, less what interpolation takes; -1: it is a sentinel, or there is no such ball in d. */
-static int64_t weight_of(const struct cage_view *view, int32_t site)
+static struct cage_mover mover_of(const struct cage_site *site, const struct move *move)
 {
-    const struct cage_triangulation *t = &view->c->t;
-    if (site <= t->dim)
-        return -1;
-    const struct cage_move *move = &view->move[t->ball[site]];
-    int64_t here = t->site[site].r, there = here + move->change, least = here < there ? here : there;
-    return least < 0 ? -1 : least * least - move->sag;
+    int64_t here = site->r, there = here + move->change, least = here < there ? here : there;
+    struct cage_mover mover = {{site->x + move->by[0], site->y + move->by[1], site->z + move->by[2]}, -1};
+    if (least >= 0 && least * least >= move->sag)
+        mover.weight = least * least - move->sag;
+    return mover;
 }
 
 int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, const int32_t *match,
@@ -59,20 +64,25 @@ int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, con
 {
     struct cage_view made = {c, d, NULL, NULL, NULL, NULL, NULL, NULL, 0, 0, CAGE_COVERED, false, false};
     int64_t longest = 0, radius = 0;
-    made.move = cage_arena_take(arena, (size_t)c->parts, sizeof *made.move);
+    made.mover = cage_arena_take(arena, (size_t)c->t.sites, sizeof *made.mover);
     made.reached = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.reached);
     made.queue = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.queue);
     made.solid = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.solid);
     made.home = cage_arena_take(arena, (size_t)d->regions, sizeof *made.home);
     made.off = cage_arena_take(arena, (size_t)d->regions, sizeof *made.off);
-    if (!made.move || !made.reached || !made.queue || !made.solid || !made.home || !made.off)
+    struct move *move = cage_arena_take(arena, (size_t)c->parts, sizeof *move);
+    if (!made.mover || !move || !made.reached || !made.queue || !made.solid || !made.home || !made.off)
         return CAGE_ERROR_MEMORY;
     for (int32_t i = 0; i < c->parts; i++) {
-        made.move[i] = move_of(&c->part[i], &d->part[match ? match[i] : i]);
-        longest = made.move[i].sag > longest ? made.move[i].sag : longest;
+        move[i] = move_of(&c->part[i], &d->part[match ? match[i] : i]);
+        longest = move[i].sag > longest ? move[i].sag : longest;
     }
-    for (int32_t i = c->t.dim + 1; i < c->t.sites; i++)
+    for (int32_t i = 0; i <= c->t.dim; i++)
+        made.mover[i].weight = -1;
+    for (int32_t i = c->t.dim + 1; i < c->t.sites; i++) {
         radius = c->t.site[i].r > radius ? c->t.site[i].r : radius;
+        made.mover[i] = mover_of(&c->t.site[i], &move[c->t.ball[i]]);
+    }
     made.far = longest / FAR > radius * radius / 100;
     memset(made.reached, 0, (size_t)c->t.simplices * sizeof *made.reached);
     memset(made.solid, -1, (size_t)c->t.simplices * sizeof *made.solid);
@@ -87,14 +97,12 @@ int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, con
 /* Greatest squared distance of two sites on their way: at one end of it. Differences < 2^29 in the plane, 2^24 in space. */
 static int64_t square_of(const struct cage_view *view, int32_t a, int32_t b)
 {
-    const struct cage_triangulation *t = &view->c->t;
-    const struct cage_move *am = &view->move[t->ball[a]], *bm = &view->move[t->ball[b]];
+    const int64_t *p = view->mover[a].at, *q = view->mover[b].at;
     int64_t e[3], here = 0, there = 0;
-    cage_difference(&t->site[a], &t->site[b], e);
+    cage_difference(&view->c->t.site[a], &view->c->t.site[b], e);
     for (int32_t n = 0; n < 3; n++) {
-        int64_t f = e[n] + am->by[n] - bm->by[n];
         here += e[n] * e[n];
-        there += f * f;
+        there += (p[n] - q[n]) * (p[n] - q[n]);
     }
     return here > there ? here : there;
 }
@@ -108,7 +116,7 @@ static bool is_solid_facet(const struct cage_view *view, int32_t s, int32_t i)
     for (int32_t k = 0; k <= t->dim; k++)
         if (k != i) {
             v[count] = t->simplex[s].v[k];
-            weight[count] = weight_of(view, v[count]);
+            weight[count] = view->mover[v[count]].weight;
             if (weight[count++] < 0)
                 return false;
         }
@@ -131,7 +139,7 @@ static bool is_solid(struct cage_view *view, int32_t s)
         return view->solid[s];
     }
     for (int32_t i = 0; i < 4; i++) {
-        weight[i] = weight_of(view, simplex->v[i]);
+        weight[i] = view->mover[simplex->v[i]].weight;
         if (weight[i] < 0)
             return false;
         for (int32_t k = 0; k < i; k++)
@@ -180,7 +188,7 @@ static void spread(struct cage_view *view, int32_t k)
             int32_t twin = t->simplex[s].twin[i], next = twin >> 2;
             if (twin == CAGE_HULL || view->reached[next] == view->spreads)
                 continue;
-            if (label[next] == k || (!is_solid(view, next) && !is_solid_facet(view, s, i)))
+            if (label[next] == k || (!is_solid_facet(view, s, i) && !is_solid(view, next)))
                 reach(view, next);
         }
     }

@@ -4,12 +4,12 @@
 
 #include "slice.h"
 
-struct cage_move;
+struct cage_mover;
 
 /* Two slices of the same side of one scene, seen from the first. */
 struct cage_view {
     const struct cage_slice *c, *d;
-    struct cage_move *move; /* for each object ball, of its balls from c to d */
+    struct cage_mover *mover; /* each site of c on its way to d */
     int32_t *reached;       /* for each simplex of c: the last spread that reached it */
     int32_t *queue;         /* those that it reached, in their order */
     int8_t *solid;          /* for each simplex of c: see barrier.c; -1: not known */

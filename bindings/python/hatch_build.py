@@ -14,7 +14,7 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-FLAGS = ["-std=c99", "-D_POSIX_C_SOURCE=200809L", "-O2", "-fPIC", "-shared", "-fvisibility=hidden"]
+FLAGS = ["-std=c99", "-D_POSIX_C_SOURCE=200809L", "-O3", "-fPIC", "-shared", "-fvisibility=hidden"]
 
 
 def sources(root: Path) -> Path:
