@@ -98,10 +98,11 @@ int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, con
 static int64_t square_of(const struct cage_view *view, int32_t a, int32_t b)
 {
     const int64_t *p = view->mover[a].at, *q = view->mover[b].at;
-    int64_t e[3], here = 0, there = 0;
+    int64_t here = 0, there = 0;
+    int32_t e[3];
     cage_difference(&view->c->t.site[a], &view->c->t.site[b], e);
     for (int32_t n = 0; n < 3; n++) {
-        here += e[n] * e[n];
+        here += (int64_t)e[n] * e[n];
         there += (p[n] - q[n]) * (p[n] - q[n]);
     }
     return here > there ? here : there;

@@ -231,26 +231,49 @@ int32_t cage_pose_check(int32_t dim, const cage_pose *pose)
     return pose->q[0] || pose->q[1] || pose->q[2] || pose->q[3] ? CAGE_OK : CAGE_ERROR_ROTATION;
 }
 
-void cage_pose_pivot(const cage_pose *pose, const int32_t pivot[3], int32_t out[3])
+/* Entry i of N z + M y, with N = |q|^2 <= 2^62 and the integer matrix M = N R(q): <= 2^62 |z_i| + 3 2^62 2^28. */
+static cage_i128 scaled_entry(const int32_t q[4], int32_t i, const int32_t y[3], int32_t z)
 {
-    struct cage_rotation rotation;
-    cage_rotation_of(pose->q, &rotation);
-    cage_rotate(&rotation, pivot, out);
+    int64_t row[3];
+    cage_i128 sum = cage_i128_mul(cage_rotation_norm(q), z);
+    cage_rotation_row(q, i, row);
     for (int32_t k = 0; k < 3; k++)
-        out[k] += pose->x[k];
+        cage_i128_add_product(&sum, row[k], y[k]);
+    return sum;
 }
 
-/* |N (x - X) + M y| < N (R + r) with the integer matrix M = N R(q), N = |q|^2 <= 2^62: terms < 2^62 2^30 + 3 2^62 2^28. */
+void cage_pose_pivot(const cage_pose *pose, const int32_t pivot[3], int32_t out[3])
+{
+    const cage_i128 norm = cage_i128_of(cage_rotation_norm(pose->q));
+    struct cage_rough rough;
+    cage_rough_of(pose->q, &rough);
+    cage_rough_rotate(&rough, pivot, out);
+    for (int32_t i = 0; i < 3; i++) { /* until -norm <= 2 rest < norm: 2 rounds at most */
+        cage_i128 rest = scaled_entry(pose->q, i, pivot, -out[i]);
+        for (; cage_i128_compare(cage_i128_add(rest, rest), norm) >= 0; out[i]++)
+            rest = cage_i128_sub(rest, norm);
+        for (; cage_i128_compare(cage_i128_add(rest, rest), cage_i128_minus(norm)) < 0; out[i]--)
+            rest = cage_i128_add(rest, norm);
+        out[i] += pose->x[i];
+    }
+}
+
+/* Entry i of N (x - X) + M y: < 2^62 2^29 + 3 2^62 2^28. */
+static cage_i128 scaled_distance(const cage_pose *pose, const cage_ball *y, const cage_ball *x, int32_t i)
+{
+    const int32_t from[3] = {y->x, y->y, y->z}, to[3] = {x->x, x->y, x->z};
+    return scaled_entry(pose->q, i, from, pose->x[i] - to[i]);
+}
+
+/* |N (x - X) + M y| < N (R + r). One coordinate after the other: it takes little stack. */
 bool cage_pair_collides(const cage_pose *pose, const cage_ball *y, const cage_ball *x)
 {
-    int64_t m[3][3], norm = cage_rotation_scaled(pose->q, m);
-    const int64_t apart[3] = {(int64_t)pose->x[0] - x->x, (int64_t)pose->x[1] - x->y, (int64_t)pose->x[2] - x->z};
-    cage_i128 n[3];
-    for (int32_t a = 0; a < 3; a++) {
-        n[a] = cage_i128_add(cage_i128_mul(norm, apart[a]), cage_i128_mul(m[a][0], y->x));
-        n[a] = cage_i128_add(n[a], cage_i128_add(cage_i128_mul(m[a][1], y->y), cage_i128_mul(m[a][2], y->z)));
+    cage_i256 excess = {{0, 0, 0, 0}};
+    for (int32_t i = 0; i < 4; i++) {
+        cage_i128 n = i < 3 ? scaled_distance(pose, y, x, i) : cage_i128_mul(cage_rotation_norm(pose->q), (int64_t)x->r + y->r);
+        cage_i256_add_product(&excess, n, i < 3 ? n : cage_i128_minus(n));
     }
-    return cage_norm_compare(n, cage_i128_mul(norm, (int64_t)x->r + y->r)) < 0;
+    return cage_i256_sign(&excess) < 0;
 }
 
 int32_t cage_collides(const cage_scene *scene, const cage_pose *pose, int32_t side)

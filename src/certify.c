@@ -53,10 +53,10 @@ static bool segment_clear(const int32_t a[3], const int32_t b[3], const int64_t 
         u[i] = (int64_t)b[i] - a[i];
         v[i] = c[i] - a[i];
         w[i] = c[i] - b[i];
-        along = cage_i128_add(along, cage_i128_mul(u[i], v[i]));
-        length = cage_i128_add(length, cage_i128_mul(u[i], u[i]));
-        from_a = cage_i128_add(from_a, cage_i128_mul(v[i], v[i]));
-        from_b = cage_i128_add(from_b, cage_i128_mul(w[i], w[i]));
+        cage_i128_add_product(&along, u[i], v[i]);
+        cage_i128_add_product(&length, u[i], u[i]);
+        cage_i128_add_product(&from_a, v[i], v[i]);
+        cage_i128_add_product(&from_b, w[i], w[i]);
     }
     cage_i128 square = cage_i128_mul(apart, apart);
     if (cage_i128_sign(along) <= 0)
@@ -64,8 +64,10 @@ static bool segment_clear(const int32_t a[3], const int32_t b[3], const int64_t 
     if (cage_i128_compare(along, length) >= 0)
         return cage_i128_compare(from_b, square) >= 0;
     /* |v|^2 |u|^2 - (u.v)^2 >= apart^2 |u|^2, in 256 bits */
-    cage_i256 excess = cage_i256_mul(cage_i128_sub(from_a, square), length);
-    return cage_i256_sign(cage_i256_sub(excess, cage_i256_mul(along, along))) >= 0;
+    cage_i256 excess = {{0, 0, 0, 0}};
+    cage_i256_add_product(&excess, cage_i128_sub(from_a, square), length);
+    cage_i256_add_product(&excess, along, cage_i128_minus(along));
+    return cage_i256_sign(&excess) >= 0;
 }
 
 bool cage_certify_leg(const cage_scene *scene, const int32_t pivot[3], const int32_t q[4], const int32_t a[3], const int32_t b[3],
@@ -97,7 +99,7 @@ static bool arc_clear(const cage_scene *scene, const int32_t pivot[3], const int
         const int32_t moved[3] = {(int32_t)(to[0] - at[0]), (int32_t)(to[1] - at[1]), (int32_t)(to[2] - at[2])};
         cage_i128 square = cage_i128_of(0);
         for (int32_t k = 0; k < 3; k++)
-            square = cage_i128_add(square, cage_i128_mul(moved[k], moved[k]));
+            cage_i128_add_product(&square, moved[k], moved[k]);
         /* The root rounded up, and three times 0.87 for the rounding of both ends and of the centre; that the ends are off the
          * arc adds less than 3 |Y| 2^-27 in space, nothing in the plane: 2^-5 three times while |Y| < 2^22; |Y| < 2^25. */
         int64_t arm = 0;
@@ -183,7 +185,7 @@ static void to_length(const int64_t q[4], int32_t out[4])
 {
     cage_i128 square = cage_i128_of(0);
     for (int32_t i = 0; i < 4; i++)
-        square = cage_i128_add(square, cage_i128_mul(q[i], q[i])); /* entries <= 2^31: < 2^64 */
+        cage_i128_add_product(&square, q[i], q[i]); /* entries <= 2^31: < 2^64 */
     int64_t length = (int64_t)cage_u128_root(square);
     for (int32_t i = 0; i < 4; i++)
         out[i] = (int32_t)cage_i128_nearest(cage_i128_mul(q[i], LENGTH), cage_i128_of(length), (int64_t)1 << 30);
@@ -223,7 +225,7 @@ static bool piece_clear(const cage_scene *scene, const int32_t pivot[3], const s
         place_ball(from->q, y, pivot, at);
         place_ball(to->q, y, pivot, end);
         for (int32_t k = 0; k < 3; k++) {
-            square = cage_i128_add(square, cage_i128_mul(end[k] - at[k], end[k] - at[k]));
+            cage_i128_add_product(&square, end[k] - at[k], end[k] - at[k]);
             arm += at[k] < 0 ? -at[k] : at[k];
         }
         /* The root rounded up, four times 0.87 for the rounding of both places, of the centre and of the way, and both

@@ -68,14 +68,15 @@ static bool is_beyond(const struct draft *draft, int32_t s, const struct cage_bo
     const struct cage_triangulation *t = draft->t;
     for (int32_t i = 0; i <= t->dim; i++) {
         const struct cage_site *facet[3];
-        int64_t normal[3], b[3], c[3] = {0, 0, 1}; /* toward the simplex */
+        int32_t b[3], c[3] = {0, 0, 1};
+        int64_t normal[3]; /* toward the simplex */
         cage_facet_sites(t, s, i, facet);
         cage_difference(facet[1], facet[0], b);
         if (t->dim == 3)
             cage_difference(facet[2], facet[0], c);
-        normal[0] = b[1] * c[2] - b[2] * c[1];
-        normal[1] = b[2] * c[0] - b[0] * c[2];
-        normal[2] = b[0] * c[1] - b[1] * c[0];
+        normal[0] = cage_minor(b[1], c[2], b[2], c[1]);
+        normal[1] = cage_minor(b[2], c[0], b[0], c[2]);
+        normal[2] = cage_minor(b[0], c[1], b[1], c[0]);
         for (int32_t k = 0; k < 3 && t->dim == 2; k++)
             normal[k] = -normal[k];
         const struct cage_site corner = {0, (int32_t)(normal[0] > 0 ? box->high : box->low)[0],
@@ -196,10 +197,11 @@ static int32_t meet(struct draft *draft, const struct cage_box *box, const int32
  * < 2^28: < 2^61. */
 static bool is_nearer(const struct cage_site *a, const struct cage_site *b, const struct cage_box *box)
 {
-    int64_t d[3], least = b->h - a->h;
+    int64_t least = b->h - a->h;
+    int32_t d[3];
     cage_difference(b, a, d);
     for (int32_t k = 0; k < 3; k++)
-        least -= 2 * d[k] * (d[k] > 0 ? box->high[k] : box->low[k]);
+        least -= 2 * (int64_t)d[k] * (d[k] > 0 ? box->high[k] : box->low[k]);
     return least >= 0;
 }
 

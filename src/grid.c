@@ -4,30 +4,34 @@
 
 enum { MATRIX_BITS = 62, TURN_BITS = 31 };
 
-/* With v the vector part: w w - |v|^2 on the diagonal, 2 w times the cross product with v beside it, and 2 v v^T on all of it. */
-int64_t cage_rotation_scaled(const int32_t q[4], int64_t m[3][3])
+int64_t cage_rotation_norm(const int32_t q[4])
 {
-    int64_t norm = 0, w = q[0]; /* <= 4 2^60 = 2^62, which no entry exceeds, and no sum on the way to it */
+    int64_t norm = 0;
     for (int32_t i = 0; i < 4; i++)
         norm += (int64_t)q[i] * q[i];
-    for (int32_t i = 0; i < 3; i++) {
-        int32_t j = (i + 1) % 3, k = (i + 2) % 3;
-        int64_t a = q[i + 1], b = q[j + 1], c = q[k + 1];
-        m[i][i] = w * w + a * a - b * b - c * c;
-        m[i][j] = 2 * (a * b - w * c);
-        m[j][i] = 2 * (a * b + w * c);
-    }
     return norm;
+}
+
+/* With v the vector part: w w - |v|^2 on the diagonal, 2 w times the cross product with v beside it, and 2 v v^T on all of it. No
+ * sum on the way exceeds |q|^2. */
+void cage_rotation_row(const int32_t q[4], int32_t i, int64_t row[3])
+{
+    int32_t j = (i + 1) % 3, k = (i + 2) % 3;
+    int64_t w = q[0], a = q[i + 1], b = q[j + 1], c = q[k + 1];
+    row[i] = w * w + a * a - b * b - c * c;
+    row[j] = 2 * (a * b - w * c);
+    row[k] = 2 * (a * c + w * b);
 }
 
 void cage_rotation_of(const int32_t q[4], struct cage_rotation *rotation)
 {
-    int64_t m[3][3], norm = cage_rotation_scaled(q, m);
-    /* |m| <= norm, so the shifted numerator is below 2^124. */
-    for (int32_t i = 0; i < 3; i++)
+    const cage_i128 norm = cage_i128_of(cage_rotation_norm(q)), one = cage_i128_of((int64_t)1 << MATRIX_BITS);
+    for (int32_t i = 0; i < 3; i++) { /* |row| <= norm, so the shifted numerator is below 2^124 */
+        int64_t row[3];
+        cage_rotation_row(q, i, row);
         for (int32_t k = 0; k < 3; k++)
-            rotation->m[i][k] = cage_i128_nearest(cage_i128_scale(cage_i128_of((int64_t)1 << MATRIX_BITS), m[i][k]),
-                                                  cage_i128_of(norm), (int64_t)1 << MATRIX_BITS);
+            rotation->m[i][k] = cage_i128_nearest(cage_i128_scale(one, row[k]), norm, (int64_t)1 << MATRIX_BITS);
+    }
 }
 
 void cage_rotate(const struct cage_rotation *rotation, const int32_t y[3], int32_t out[3])
@@ -36,9 +40,35 @@ void cage_rotate(const struct cage_rotation *rotation, const int32_t y[3], int32
     for (int32_t i = 0; i < 3; i++) {
         cage_i128 sum = cage_i128_of((int64_t)1 << (MATRIX_BITS - 1));
         for (int32_t k = 0; k < 3; k++)
-            sum = cage_i128_add(sum, cage_i128_mul(rotation->m[i][k], y[k]));
+            cage_i128_add_product(&sum, rotation->m[i][k], y[k]);
         out[i] = (int32_t)(int64_t)cage_i128_low(cage_i128_shr(sum, MATRIX_BITS)); /* floor: the low word of a shift is that of
                                                                                    the arithmetic shift */
+    }
+}
+
+/* times 2^bits; toward 0 */
+static int32_t scaled(int64_t a, int32_t bits)
+{
+    return (int32_t)(bits < 0 ? a / ((int64_t)1 << -bits) : a * ((int64_t)1 << bits));
+}
+
+void cage_rough_of(const int32_t q[4], struct cage_rough *rough)
+{
+    int64_t norm = cage_rotation_norm(q), row[3]; /* magnitudes <= norm < 2^has */
+    int32_t has = (int32_t)cage_u64_bits((uint64_t)norm);
+    rough->one = scaled(norm, 31 - has);
+    for (int32_t i = 0; i < 3; i++) {
+        cage_rotation_row(q, i, row);
+        for (int32_t k = 0; k < 3; k++)
+            rough->m[i][k] = scaled(row[k], 31 - has);
+    }
+}
+
+void cage_rough_rotate(const struct cage_rough *rough, const int32_t y[3], int32_t out[3])
+{
+    for (int32_t i = 0; i < 3; i++) { /* < 3 2^31 2^28 */
+        const int32_t *m = rough->m[i];
+        out[i] = (int32_t)(((int64_t)m[0] * y[0] + (int64_t)m[1] * y[1] + (int64_t)m[2] * y[2]) / rough->one);
     }
 }
 
@@ -56,7 +86,7 @@ static int64_t normalise(const int32_t q[4], int64_t out[4])
             out[i] *= 2;
     cage_i128 square = cage_i128_of(0);
     for (int32_t i = 0; i < 4; i++)
-        square = cage_i128_add(square, cage_i128_mul(out[i], out[i]));
+        cage_i128_add_product(&square, out[i], out[i]);
     return (int64_t)cage_u128_root(square); /* >= 2^29, <= 2^31 */
 }
 
@@ -69,7 +99,7 @@ int64_t cage_turn(const int32_t q[4], const int32_t other[4])
     for (int32_t i = 0; i < 4; i++)
         for (int32_t k = 0; k < i; k++) {
             int64_t minor = a[i] * b[k] - a[k] * b[i];
-            square = cage_i128_add(square, cage_i128_mul(minor, minor));
+            cage_i128_add_product(&square, minor, minor);
         }
     cage_i128 root = cage_u64_mul(cage_u128_root(square), 1), rest;
     if (cage_i128_compare(cage_u64_mul(cage_i128_low(root), cage_i128_low(root)), square) < 0)
@@ -112,7 +142,7 @@ int32_t cage_displacement_within(const struct cage_corners *corners, const int32
         cage_i128 square = cage_i128_of(0); /* |u x y|^2 < 3 2^106 */
         for (int32_t k = 0; k < 3; k++) {
             int64_t minor = u[(k + 1) % 3] * y[(k + 2) % 3] - u[(k + 2) % 3] * y[(k + 1) % 3];
-            square = cage_i128_add(square, cage_i128_mul(minor, minor));
+            cage_i128_add_product(&square, minor, minor);
         }
         most = cage_i128_compare(square, most) > 0 ? square : most;
     }

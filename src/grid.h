@@ -9,8 +9,10 @@ struct cage_rotation {
     int64_t m[3][3];
 };
 
-/* |q|^2, and the rotation's matrix times that, exact: entries at most |q|^2 in magnitude, those of q at most 2^30. */
-int64_t cage_rotation_scaled(const int32_t q[4], int64_t m[3][3]);
+/* |q|^2, at most 2^62 (entries of q at most 2^30 in magnitude), and a row of the rotation's matrix times that, exact: entries at
+ * most |q|^2. */
+int64_t cage_rotation_norm(const int32_t q[4]);
+void cage_rotation_row(const int32_t q[4], int32_t i, int64_t row[3]);
 
 /* From a quaternion that is not 0, entries at most 2^30 in magnitude. Exact for the quarter turns about the axes. */
 void cage_rotation_of(const int32_t q[4], struct cage_rotation *rotation);
@@ -18,6 +20,18 @@ void cage_rotation_of(const int32_t q[4], struct cage_rotation *rotation);
 /* R y, |y| <= 2^29, each coordinate rounded to nearest once: each is off by at most 1/2 + 2^-31, the point by less
  * than 0.71 in the plane and 0.87 in space. */
 void cage_rotate(const struct cage_rotation *rotation, const int32_t y[3], int32_t out[3]);
+
+/* A rotation's matrix times `one`, and `one` itself, 2^30 <= one < 2^31, both cut off: for where something is about. */
+struct cage_rough {
+    int32_t m[3][3];
+    int32_t one;
+};
+
+void cage_rough_of(const int32_t q[4], struct cage_rough *rough);
+
+/* R y, entries of y at most 2^28: each coordinate is off by less than 2.2. (What was cut off the matrix takes 3 2^28 / 2^30,
+ * what was cut off `one` (2^28 root(3) + 1) / 2^30, the division 1.) */
+void cage_rough_rotate(const struct cage_rough *rough, const int32_t y[3], int32_t out[3]);
 
 /* Twice the sine of the angle between two quaternions (that is, the largest |R y - R' y| / |y|), in units of 2^-31,
  * rounded up: at most 2^32 + 17. Only for angles up to 90 degrees is the sine monotone; callers stay below. */

@@ -65,7 +65,7 @@ static int32_t clearance(const cage_scene *scene, const int32_t pivot[3], const 
             cage_i128 square = cage_i128_of(0); /* a path may go far outside: differences < 2^32 */
             for (int32_t k = 0; k < 3; k++) {
                 int64_t apart = (int64_t)pose->x[k] + at[k] - (k == 0 ? x->x : k == 1 ? x->y : x->z);
-                square = cage_i128_add(square, cage_i128_mul(apart, apart));
+                cage_i128_add_product(&square, apart, apart);
             }
             int64_t gap = (int64_t)cage_u128_root(square) - x->r - y->r;
             least = gap < least ? (int32_t)gap : least;
@@ -80,7 +80,7 @@ static int64_t length_of(const cage_pose *from, const cage_pose *to)
     cage_i128 square = cage_i128_of(1);
     for (int32_t k = 0; k < 3; k++) {
         int64_t by = (int64_t)to->x[k] - from->x[k];
-        square = cage_i128_add(square, cage_i128_mul(by, by));
+        cage_i128_add_product(&square, by, by);
     }
     return (int64_t)cage_u128_root(square);
 }

@@ -131,13 +131,14 @@ void cage_piece_make(const struct cage_triangulation *t, const struct cage_ortho
 static void find_normal(const struct cage_triangulation *t, int32_t s, int32_t i, int32_t normal[3])
 {
     const struct cage_site *face[3];
-    int64_t e[3], f[3] = {0, 0, 1}, n[3], most = 0; /* in the plane e x (0, 0, 1) */
+    int32_t e[3], f[3] = {0, 0, 1}; /* in the plane e x (0, 0, 1) */
+    int64_t n[3], most = 0;
     cage_facet_sites(t, s, i, face);
     cage_difference(face[1], face[0], e); /* entries <= 2M */
     if (t->dim == 3)
         cage_difference(face[2], face[0], f);
     for (int32_t k = 0; k < 3; k++) { /* <= 8 M^2 = 2^51 in space, 2M = 2^30 in the plane */
-        n[k] = e[(k + 1) % 3] * f[(k + 2) % 3] - e[(k + 2) % 3] * f[(k + 1) % 3];
+        n[k] = cage_minor(e[(k + 1) % 3], f[(k + 2) % 3], e[(k + 2) % 3], f[(k + 1) % 3]);
         most = n[k] > most ? n[k] : most;
         most = -n[k] > most ? -n[k] : most;
     }

@@ -6,26 +6,26 @@ const int32_t CAGE_FACE_3D[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
 
 /* u.u - r_1^2 + r_0^2 for u = z_1 - z_0, from the heights, right for sentinels too: <= 9 M^2 in the plane (2^61.2), 13 M^2
  * in space (2^51.8). */
-static CAGE_INLINE int64_t lift(const struct cage_site *base, const struct cage_site *other, const int64_t u[3])
+static CAGE_INLINE int64_t lift(const struct cage_site *base, const struct cage_site *other, const int32_t u[3])
 {
-    return other->h - base->h - 2 * (base->x * u[0] + base->y * u[1] + base->z * u[2]);
+    return other->h - base->h - 2 * ((int64_t)base->x * u[0] + (int64_t)base->y * u[1] + (int64_t)base->z * u[2]);
 }
 
-static int64_t dot(const int64_t a[3], const int64_t b[3])
+static int64_t dot(const int32_t a[3], const int32_t b[3])
 {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
 }
 
 /* The entries of b x c, <= 8 M^2. */
-static CAGE_INLINE void cross(const int64_t b[3], const int64_t c[3], int64_t out[3])
+static CAGE_INLINE void cross(const int32_t b[3], const int32_t c[3], int64_t out[3])
 {
-    out[0] = b[1] * c[2] - b[2] * c[1];
-    out[1] = b[2] * c[0] - b[0] * c[2];
-    out[2] = b[0] * c[1] - b[1] * c[0];
+    out[0] = cage_minor(b[1], c[2], b[2], c[1]);
+    out[1] = cage_minor(b[2], c[0], b[0], c[2]);
+    out[2] = cage_minor(b[0], c[1], b[1], c[0]);
 }
 
 /* The orthocentre z_0 + o solves 2 u_i . o = a_i, u_i = z_i - z_0, a_i < 2^61.2 in the plane, 2^51.8 in space. */
-static CAGE_INLINE void set_up(int32_t dim, const struct cage_site *const v[4], int64_t u[3][3], int64_t a[3])
+static CAGE_INLINE void set_up(int32_t dim, const struct cage_site *const v[4], int32_t u[3][3], int64_t a[3])
 {
     for (int32_t i = 0; i < dim; i++) {
         cage_difference(v[i + 1], v[0], u[i]);
@@ -34,32 +34,38 @@ static CAGE_INLINE void set_up(int32_t dim, const struct cage_site *const v[4], 
 }
 
 /* The cofactor vectors of the u_i, entries < 2^51; returns their determinant, < 2^78. */
-static CAGE_INLINE cage_i128 cofactors(int64_t u[3][3], int64_t out[3][3])
+static CAGE_INLINE cage_i128 cofactors(int32_t u[3][3], int64_t out[3][3])
 {
     cross(u[1], u[2], out[0]);
     cross(u[2], u[0], out[1]);
     cross(u[0], u[1], out[2]);
-    cage_i128 det = cage_i128_add(cage_i128_mul(out[0][0], u[0][0]), cage_i128_mul(out[0][1], u[0][1]));
-    return cage_i128_add(det, cage_i128_mul(out[0][2], u[0][2]));
+    cage_i128 det = cage_i128_mul(out[0][0], u[0][0]);
+    cage_i128_add_product(&det, out[0][1], u[0][1]);
+    cage_i128_add_product(&det, out[0][2], u[0][2]);
+    return det;
 }
 
 /* By Cramer's rule: o = sum of a_i times the cofactor vector of u_i, over 2 det. */
 void cage_orthocentre(int32_t dim, const struct cage_site *const v[4], struct cage_centre *centre)
 {
-    int64_t u[3][3], a[3], cofactor[3][3];
+    int32_t u[3][3];
+    int64_t a[3], cofactor[3][3];
     cage_i128 det;
     if (dim == 2) { /* 2^61.2 2^30, two of them */
         set_up(2, v, u, a);
-        centre->offset[0] = cage_i128_sub(cage_i128_mul(a[0], u[1][1]), cage_i128_mul(a[1], u[0][1]));
-        centre->offset[1] = cage_i128_sub(cage_i128_mul(a[1], u[0][0]), cage_i128_mul(a[0], u[1][0]));
+        centre->offset[0] = cage_i128_mul(a[0], u[1][1]);
+        cage_i128_add_product(&centre->offset[0], a[1], -u[0][1]);
+        centre->offset[1] = cage_i128_mul(a[1], u[0][0]);
+        cage_i128_add_product(&centre->offset[1], a[0], -u[1][0]);
         centre->offset[2] = cage_i128_of(0);
-        det = cage_i128_of(u[0][0] * u[1][1] - u[0][1] * u[1][0]);
+        det = cage_i128_of(cage_minor(u[0][0], u[1][1], u[0][1], u[1][0]));
     } else { /* 2^51.8 2^51, three of them */
         set_up(3, v, u, a);
         det = cofactors(u, cofactor);
         for (int32_t k = 0; k < 3; k++) {
-            cage_i128 sum = cage_i128_add(cage_i128_mul(cofactor[0][k], a[0]), cage_i128_mul(cofactor[1][k], a[1]));
-            centre->offset[k] = cage_i128_add(sum, cage_i128_mul(cofactor[2][k], a[2]));
+            centre->offset[k] = cage_i128_mul(cofactor[0][k], a[0]);
+            cage_i128_add_product(&centre->offset[k], cofactor[1][k], a[1]);
+            cage_i128_add_product(&centre->offset[k], cofactor[2][k], a[2]);
         }
     }
     centre->denominator = cage_i128_add(det, det);
@@ -102,13 +108,14 @@ static CAGE_INLINE int32_t compare_roughly(int32_t dim, const int64_t n[3], uint
 /* The sign of the power from the top 31 bits of the a_i, so that products are off by less than the other factor; or 0. */
 static int32_t rough_power_2d(const struct cage_site *const v[4])
 {
-    int64_t u[3][3], a[3];
+    int32_t u[3][3];
+    int64_t a[3];
     set_up(2, v, u, a);
     uint32_t drop = excess(size_of(a[0]) | size_of(a[1]), 31);
     int64_t a0 = cut(a[0], drop), a1 = cut(a[1], drop); /* magnitudes <= 2^31 */
     const int64_t n[3] = {a0 * u[1][1] - a1 * u[0][1], a1 * u[0][0] - a0 * u[1][0], 0};
     uint64_t error = size_of(u[0][0]) + size_of(u[0][1]) + size_of(u[1][0]) + size_of(u[1][1]); /* < 2^32 */
-    return compare_roughly(2, n, error, cage_i128_of(u[0][0] * u[1][1] - u[0][1] * u[1][0]), v[0]->r, drop);
+    return compare_roughly(2, n, error, cage_i128_of(cage_minor(u[0][0], u[1][1], u[0][1], u[1][0])), v[0]->r, drop);
 }
 
 static CAGE_INLINE uint64_t sizes_of(const int64_t v[3]) { return size_of(v[0]) | size_of(v[1]) | size_of(v[2]); }
@@ -117,13 +124,9 @@ static CAGE_INLINE uint64_t sizes_of(const int64_t v[3]) { return size_of(v[0]) 
  * their factors, and 1. */
 static int32_t rough_power_3d(const struct cage_site *const v[4])
 {
-    int64_t u[3][3], a[3], c[3][3];
-    cage_difference(v[1], v[0], u[0]);
-    cage_difference(v[2], v[0], u[1]);
-    cage_difference(v[3], v[0], u[2]);
-    a[0] = lift(v[0], v[1], u[0]);
-    a[1] = lift(v[0], v[2], u[1]);
-    a[2] = lift(v[0], v[3], u[2]);
+    int32_t u[3][3];
+    int64_t a[3], c[3][3];
+    set_up(3, v, u, a);
     cage_i128 det = cofactors(u, c);
     uint64_t all = sizes_of(c[0]) | sizes_of(c[1]) | sizes_of(c[2]);
     uint32_t lift_drop = excess(sizes_of(a), 29), drop = excess(all, 31);
@@ -158,17 +161,18 @@ int32_t cage_norm_compare(const cage_i128 n[3], cage_i128 g)
         return 1;
     if (cage_i128_compare(cage_i128_add(least, cage_i128_make(0, slack)), other) <= 0)
         return -1;
-    cage_i256 sum = cage_i256_mul(size[0], size[0]);
-    sum = cage_i256_add(sum, cage_i256_mul(size[1], size[1]));
-    sum = cage_i256_add(sum, cage_i256_mul(size[2], size[2]));
-    return cage_i256_sign(cage_i256_sub(sum, cage_i256_mul(g, g)));
+    cage_i256 sum = {{0, 0, 0, 0}};
+    for (int32_t k = 0; k < 3; k++)
+        cage_i256_add_product(&sum, n[k], n[k]);
+    cage_i256_add_product(&sum, g, cage_i128_minus(g));
+    return cage_i256_sign(&sum);
 }
 
 cage_i128 cage_simplex_volume(int32_t dim, const struct cage_site *const v[4])
 {
     if (dim == 2)
         return cage_i128_of(cage_cross(v[0], v[1], v[2]));
-    int64_t a[3], b[3], c[3];
+    int32_t a[3], b[3], c[3];
     cage_difference(v[1], v[0], a);
     cage_difference(v[2], v[0], b);
     cage_difference(v[3], v[0], c);
@@ -193,7 +197,8 @@ bool cage_centre_is_wide(const struct cage_centre *centre, int32_t radius)
 /* No point in common: squares <= 12 M^2 in space. */
 static CAGE_INLINE bool are_apart(const struct cage_site *a, const struct cage_site *b)
 {
-    int64_t u[3], sum = (int64_t)a->r + b->r;
+    int64_t sum = (int64_t)a->r + b->r;
+    int32_t u[3];
     cage_difference(a, b, u);
     return dot(u, u) > sum * sum;
 }
@@ -233,7 +238,7 @@ static int32_t side_by_top_bits(const struct cage_centre *centre, const int64_t 
     drop = of_triple > 125 + drop ? of_triple - 125 : drop;
     cage_i128 sum = cage_i128_scale(triple, top(centre->denominator, drop)), error = size;
     for (int32_t k = 0; k < 3; k++) { /* |normal| < 2^53 */
-        sum = cage_i128_add(sum, cage_i128_mul(normal[k], top(centre->offset[k], drop)));
+        cage_i128_add_product(&sum, normal[k], top(centre->offset[k], drop));
         error = cage_i128_add(error, cage_i128_of(normal[k] < 0 ? -normal[k] : normal[k]));
     }
     if (cage_i128_compare(cage_i128_abs(sum), error) <= 0)
@@ -243,14 +248,15 @@ static int32_t side_by_top_bits(const struct cage_centre *centre, const int64_t 
 
 int32_t cage_centre_side(int32_t dim, const struct cage_site *const face[3], const struct cage_centre *centre)
 {
-    int64_t b[3], c[3] = {0, 0, 1}, to_base[3], normal[3];
+    int32_t b[3], c[3] = {0, 0, 1}, to_base[3];
+    int64_t normal[3];
     cage_difference(face[1], face[0], b);
     cage_difference(centre->base, face[0], to_base);
     if (dim == 3)
         cage_difference(face[2], face[0], c);
     if (dim == 2) {
         /* (c x b) . (o - face_0), times the denominator: 2^63 2^61 + 2 2^30 2^93 < 2^126 */
-        cage_i128 sum = cage_i128_scale(centre->denominator, b[0] * to_base[1] - b[1] * to_base[0]);
+        cage_i128 sum = cage_i128_scale(centre->denominator, cage_minor(b[0], to_base[1], b[1], to_base[0]));
         sum = cage_i128_add(sum, cage_i128_scale(centre->offset[1], b[0]));
         return cage_i128_sign(cage_i128_sub(sum, cage_i128_scale(centre->offset[0], b[1])));
     }
@@ -259,15 +265,17 @@ int32_t cage_centre_side(int32_t dim, const struct cage_site *const face[3], con
     int32_t sign = side_by_top_bits(centre, normal, triple);
     if (sign != 0)
         return sign;
-    cage_i256 sum = cage_i256_mul(centre->denominator, triple);
+    cage_i256 sum = {{0, 0, 0, 0}};
+    cage_i256_add_product(&sum, centre->denominator, triple);
     for (int32_t k = 0; k < 3; k++)
-        sum = cage_i256_add(sum, cage_i256_mul(centre->offset[k], cage_i128_of(normal[k])));
-    return cage_i256_sign(sum);
+        cage_i256_add_product(&sum, centre->offset[k], cage_i128_of(normal[k]));
+    return cage_i256_sign(&sum);
 }
 
 /* The orthocentre of a triangle in space lies at z_0 + (alpha u + beta v) / (2 gram). */
 struct triangle {
-    int64_t u[3], v[3], a, b; /* edges from z_0 and their lifts, < 2^51.8 */
+    int32_t u[3], v[3];       /* edges from z_0, */
+    int64_t a, b;             /* and their lifts, < 2^51.8 */
     cage_i128 alpha, beta;    /* a v.v - b u.v, b u.u - a u.v: < 2^105 */
     cage_i128 gram;           /* u.u v.v - (u.v)^2 < 2^104 */
 };
@@ -279,9 +287,12 @@ static void triangle_centre(const struct cage_site *const facet[3], struct trian
     t->a = lift(facet[0], facet[1], t->u);
     t->b = lift(facet[0], facet[2], t->v);
     int64_t uu = dot(t->u, t->u), vv = dot(t->v, t->v), uv = dot(t->u, t->v); /* <= 12 M^2 < 2^51.6 */
-    t->alpha = cage_i128_sub(cage_i128_mul(t->a, vv), cage_i128_mul(t->b, uv));
-    t->beta = cage_i128_sub(cage_i128_mul(t->b, uu), cage_i128_mul(t->a, uv));
-    t->gram = cage_i128_sub(cage_i128_mul(uu, vv), cage_i128_mul(uv, uv));
+    t->alpha = cage_i128_mul(t->a, vv);
+    cage_i128_add_product(&t->alpha, t->b, -uv);
+    t->beta = cage_i128_mul(t->b, uu);
+    cage_i128_add_product(&t->beta, t->a, -uv);
+    t->gram = cage_i128_mul(uu, vv);
+    cage_i128_add_product(&t->gram, uv, -uv);
 }
 
 /* The sign of the sum of big_k * little_k, |little| < 2^54: from the top 62 bits of the big ones, each term then off by less than
@@ -295,14 +306,15 @@ static int32_t mixed_sign(const cage_i128 big[3], const int64_t little[3])
     }
     uint32_t bits = cage_u128_bits(all), drop = bits > 62 ? bits - 62 : 0;
     for (int32_t k = 0; k < 3; k++) {
-        sum = cage_i128_add(sum, cage_i128_mul(little[k], top(big[k], drop)));
+        cage_i128_add_product(&sum, little[k], top(big[k], drop));
         error = cage_i128_add(error, cage_i128_of(little[k] < 0 ? -little[k] : little[k]));
     }
     if (cage_i128_compare(cage_i128_abs(sum), error) > 0)
         return cage_i128_sign(sum);
-    cage_i256 exact = cage_i256_mul(big[0], cage_i128_of(little[0]));
-    exact = cage_i256_add(exact, cage_i256_mul(big[1], cage_i128_of(little[1])));
-    return cage_i256_sign(cage_i256_add(exact, cage_i256_mul(big[2], cage_i128_of(little[2]))));
+    cage_i256 exact = {{0, 0, 0, 0}};
+    for (int32_t k = 0; k < 3; k++)
+        cage_i256_add_product(&exact, big[k], cage_i128_of(little[k]));
+    return cage_i256_sign(&exact);
 }
 
 /* For an edge of length L: p <= 0 iff |r_0 - r_1| <= L <= r_0 + r_1. Squares <= 8 M^2 = 2^61. For a
@@ -310,7 +322,7 @@ static int32_t mixed_sign(const cage_i128 big[3], const int64_t little[3])
 int32_t cage_facet_power(int32_t dim, const struct cage_site *const facet[3])
 {
     if (dim == 2) {
-        int64_t u[3];
+        int32_t u[3];
         cage_difference(facet[1], facet[0], u);
         int64_t length = dot(u, u), sum = (int64_t)facet[0]->r + facet[1]->r, gap = (int64_t)facet[0]->r - facet[1]->r;
         if (length > sum * sum || length < gap * gap)
@@ -331,11 +343,11 @@ int32_t cage_facet_power(int32_t dim, const struct cage_site *const facet[3])
  * for a triangle c gram - alpha (s.u) - beta (s.v) < 0, <= 1788 M^6. */
 bool cage_facet_attached(int32_t dim, const struct cage_site *const facet[3], const struct cage_site *w)
 {
-    int64_t s[3];
+    int32_t s[3];
     cage_difference(w, facet[0], s);
     int64_t c = lift(facet[0], w, s);
     if (dim == 2) {
-        int64_t u[3];
+        int32_t u[3];
         cage_difference(facet[1], facet[0], u);
         int64_t a = lift(facet[0], facet[1], u);
         return cage_i128_sign(cage_i128_sub(cage_i128_mul(c, dot(u, u)), cage_i128_mul(a, dot(s, u)))) < 0;
@@ -349,7 +361,7 @@ bool cage_facet_attached(int32_t dim, const struct cage_site *const facet[3], co
 
 bool cage_centre_off(int32_t dim, const struct cage_centre *centre, const struct cage_site *ball)
 {
-    int64_t apart[3];
+    int32_t apart[3];
     cage_i128 n[3] = {cage_i128_of(0), cage_i128_of(0), cage_i128_of(0)};
     cage_difference(ball, centre->base, apart);
     for (int32_t k = 0; k < dim; k++)

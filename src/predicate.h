@@ -20,33 +20,40 @@ struct cage_site {
 extern const int32_t CAGE_FACE_2D[3][2];
 extern const int32_t CAGE_FACE_3D[4][3];
 
+/* a b - c d: entries <= 2M, value <= 8 M^2. */
+static CAGE_INLINE int64_t cage_minor(int32_t a, int32_t b, int32_t c, int32_t d) { return (int64_t)a * b - (int64_t)c * d; }
+
 /* (a - o) x (b - o) in the plane: entries of the differences <= 2M, value <= 8 M^2 = 2^61. */
 static CAGE_INLINE int64_t cage_cross(const struct cage_site *o, const struct cage_site *a,
                                       const struct cage_site *b)
 {
-    return ((int64_t)a->x - o->x) * ((int64_t)b->y - o->y) - ((int64_t)a->y - o->y) * ((int64_t)b->x - o->x);
+    return cage_minor(a->x - o->x, b->y - o->y, a->y - o->y, b->x - o->x);
 }
 
 /* a.(b x c) for vectors with entries <= 2M: minors <= 8 M^2 = 2^51, value <= 48 M^3 < 2^78. */
-static CAGE_INLINE cage_i128 cage_triple(const int64_t a[3], const int64_t b[3], const int64_t c[3])
+static CAGE_INLINE cage_i128 cage_triple(const int32_t a[3], const int32_t b[3], const int32_t c[3])
 {
-    cage_i128 x = cage_i128_mul(b[1] * c[2] - b[2] * c[1], a[0]);
-    cage_i128 y = cage_i128_mul(b[2] * c[0] - b[0] * c[2], a[1]);
-    cage_i128 z = cage_i128_mul(b[0] * c[1] - b[1] * c[0], a[2]);
-    return cage_i128_add(cage_i128_add(x, y), z);
+    cage_i128 sum = cage_i128_mul(cage_minor(b[1], c[2], b[2], c[1]), a[0]);
+    cage_i128_add_product(&sum, cage_minor(b[2], c[0], b[0], c[2]), a[1]);
+    cage_i128_add_product(&sum, cage_minor(b[0], c[1], b[1], c[0]), a[2]);
+    return sum;
 }
 
 /* m_1 z_1 - m_2 z_2 + m_3 z_3: a 3 x 3 determinant from its minors */
 static CAGE_INLINE cage_i128 cage_mix(int64_t m1, int64_t z1, int64_t m2, int64_t z2, int64_t m3, int64_t z3)
 {
-    return cage_i128_add(cage_i128_sub(cage_i128_mul(m1, z1), cage_i128_mul(m2, z2)), cage_i128_mul(m3, z3));
+    cage_i128 sum = cage_i128_mul(m1, z1);
+    cage_i128_add_product(&sum, m2, -z2);
+    cage_i128_add_product(&sum, m3, z3);
+    return sum;
 }
 
-static CAGE_INLINE void cage_difference(const struct cage_site *a, const struct cage_site *b, int64_t out[3])
+/* Entries <= 2M. */
+static CAGE_INLINE void cage_difference(const struct cage_site *a, const struct cage_site *b, int32_t out[3])
 {
-    out[0] = (int64_t)a->x - b->x;
-    out[1] = (int64_t)a->y - b->y;
-    out[2] = (int64_t)a->z - b->z;
+    out[0] = a->x - b->x;
+    out[1] = a->y - b->y;
+    out[2] = a->z - b->z;
 }
 
 /* On which side of the face opposite vertex i of the simplex lies p? 1: with vertex i, 0: on it, -1: beyond.
@@ -57,11 +64,22 @@ static CAGE_INLINE int32_t cage_side(int32_t dim, const struct cage_site *const 
         int64_t cross = cage_cross(face[0], face[1], p);
         return (cross > 0) - (cross < 0);
     }
-    int64_t b[3], c[3], x[3];
+    int32_t b[3], c[3], x[3];
     cage_difference(face[1], face[0], b);
     cage_difference(face[2], face[0], c);
     cage_difference(p, face[0], x);
     return cage_i128_sign(cage_triple(x, b, c));
+}
+
+/* The same, from the differences of the face's vertices and p (in the plane of two): translated by p, the determinant with p in
+ * the first row is less the one of the vertices. */
+static CAGE_INLINE int32_t cage_side_from(int32_t dim, const int32_t a[3], const int32_t b[3], const int32_t c[3])
+{
+    if (dim == 2) {
+        int64_t cross = cage_minor(a[0], b[1], a[1], b[0]);
+        return (cross > 0) - (cross < 0);
+    }
+    return -cage_i128_sign(cage_triple(a, b, c));
 }
 
 /* The power test: is p closer than orthogonal to the orthosphere of the positive simplex v? The sign of a determinant of
@@ -71,21 +89,22 @@ static CAGE_INLINE int32_t cage_side(int32_t dim, const struct cage_site *const 
  * is the orientation of v, positive: a tie is no conflict. */
 static CAGE_INLINE bool cage_conflict(int32_t dim, const struct cage_site *const v[4], const struct cage_site *p)
 {
-    int64_t a[4][3], h[4]; /* |h| <= 4 M^2 + 2 < 2^61 */
+    int32_t a[4][3];
+    int64_t h[4]; /* <= 4 M^2 + 2 < 2^61 */
     for (int32_t i = 0; i <= dim; i++) {
         cage_difference(v[i], p, a[i]);
         h[i] = v[i]->h - p->h;
     }
     if (dim == 2) {
-        cage_i128 det = cage_i128_mul(a[1][0] * a[2][1] - a[1][1] * a[2][0], h[0]);
-        det = cage_i128_add(det, cage_i128_mul(a[2][0] * a[0][1] - a[2][1] * a[0][0], h[1]));
-        det = cage_i128_add(det, cage_i128_mul(a[0][0] * a[1][1] - a[0][1] * a[1][0], h[2]));
+        cage_i128 det = cage_i128_mul(cage_minor(a[1][0], a[2][1], a[1][1], a[2][0]), h[0]);
+        cage_i128_add_product(&det, cage_minor(a[2][0], a[0][1], a[2][1], a[0][0]), h[1]);
+        cage_i128_add_product(&det, cage_minor(a[0][0], a[1][1], a[0][1], a[1][0]), h[2]);
         return cage_i128_positive(det);
     }
     /* Minors of x and y (<= 8 M^2 = 2^51), then of x, y and z (< 2^78), then all of it. */
-    int64_t m01 = a[0][0] * a[1][1] - a[0][1] * a[1][0], m02 = a[0][0] * a[2][1] - a[0][1] * a[2][0];
-    int64_t m03 = a[0][0] * a[3][1] - a[0][1] * a[3][0], m12 = a[1][0] * a[2][1] - a[1][1] * a[2][0];
-    int64_t m13 = a[1][0] * a[3][1] - a[1][1] * a[3][0], m23 = a[2][0] * a[3][1] - a[2][1] * a[3][0];
+    int64_t m01 = cage_minor(a[0][0], a[1][1], a[0][1], a[1][0]), m02 = cage_minor(a[0][0], a[2][1], a[0][1], a[2][0]);
+    int64_t m03 = cage_minor(a[0][0], a[3][1], a[0][1], a[3][0]), m12 = cage_minor(a[1][0], a[2][1], a[1][1], a[2][0]);
+    int64_t m13 = cage_minor(a[1][0], a[3][1], a[1][1], a[3][0]), m23 = cage_minor(a[2][0], a[3][1], a[2][1], a[3][0]);
     cage_i128 det = cage_i128_scale(cage_mix(m23, a[1][2], m13, a[2][2], m12, a[3][2]), h[0]);
     det = cage_i128_sub(det, cage_i128_scale(cage_mix(m23, a[0][2], m03, a[2][2], m02, a[3][2]), h[1]));
     det = cage_i128_add(det, cage_i128_scale(cage_mix(m13, a[0][2], m03, a[1][2], m01, a[3][2]), h[2]));

@@ -120,17 +120,16 @@ int32_t cage_atlas_open(cage_atlas *atlas, const void *bytes, size_t size)
 /* Does the closed simplex with these vertices hold the point? */
 static bool holds(const cage_atlas *atlas, uint32_t chart, uint32_t vertex, const int32_t p[3])
 {
-    const struct cage_site point = {0, p[0], p[1], p[2], 0};
-    struct cage_site site[4];
+    int32_t from[4][3]; /* the point to its vertices */
     for (uint32_t k = 0; k <= (uint32_t)atlas->dim; k++) {
         const cage_ball ball = cage_read_ball(atlas, chart + cage_read_word(atlas, vertex + k));
-        const struct cage_site made = {0, ball.x, ball.y, ball.z, ball.r};
-        site[k] = made;
+        from[k][0] = ball.x - p[0];
+        from[k][1] = ball.y - p[1];
+        from[k][2] = ball.z - p[2];
     }
     for (int32_t i = 0; i <= atlas->dim; i++) {
-        const int32_t *index = atlas->dim == 2 ? CAGE_FACE_2D[i] : CAGE_FACE_3D[i];
-        const struct cage_site *face[3] = {&site[index[0]], &site[index[1]], atlas->dim == 2 ? NULL : &site[index[2]]};
-        if (cage_side(atlas->dim, face, &point) < 0)
+        const int32_t *face = atlas->dim == 2 ? CAGE_FACE_2D[i] : CAGE_FACE_3D[i];
+        if (cage_side_from(atlas->dim, from[face[0]], from[face[1]], from[face[atlas->dim == 2 ? 1 : 2]]) < 0)
             return false;
     }
     return true;

@@ -93,38 +93,27 @@ static void accumulate(cage_i256 *sum, int32_t at, cage_i128 value)
     }
 }
 
-cage_i256 cage_i256_mul(cage_i128 a, cage_i128 b)
+static void accumulate_product(cage_i256 *sum, int32_t at, uint64_t a, uint64_t b)
 {
-    bool negative = cage_i128_negative(a) != cage_i128_negative(b);
-    a = cage_i128_abs(a);
-    b = cage_i128_abs(b);
-    cage_i256 product = {{0, 0, 0, 0}};
-    accumulate(&product, 0, cage_u64_mul(cage_i128_low(a), cage_i128_low(b)));
-    accumulate(&product, 1, cage_u64_mul(cage_i128_low(a), cage_i128_high(b)));
-    accumulate(&product, 1, cage_u64_mul(cage_i128_high(a), cage_i128_low(b)));
-    accumulate(&product, 2, cage_u64_mul(cage_i128_high(a), cage_i128_high(b)));
-    cage_i256 zero = {{0, 0, 0, 0}};
-    return negative ? cage_i256_sub(zero, product) : product;
+    accumulate(sum, at, cage_u64_mul(a, b));
 }
 
-cage_i256 cage_i256_add(cage_i256 a, cage_i256 b)
+/* Of the values as unsigned numbers, which are too large by 2^128 where they are negative. */
+void cage_i256_add_product(cage_i256 *sum, cage_i128 a, cage_i128 b)
 {
-    accumulate(&a, 0, cage_i128_make(b.word[1], b.word[0]));
-    accumulate(&a, 2, cage_i128_make(b.word[3], b.word[2]));
-    return a;
+    accumulate_product(sum, 0, cage_i128_low(a), cage_i128_low(b));
+    accumulate_product(sum, 1, cage_i128_low(a), cage_i128_high(b));
+    accumulate_product(sum, 1, cage_i128_high(a), cage_i128_low(b));
+    accumulate_product(sum, 2, cage_i128_high(a), cage_i128_high(b));
+    if (cage_i128_negative(a))
+        accumulate(sum, 2, cage_i128_minus(b));
+    if (cage_i128_negative(b))
+        accumulate(sum, 2, cage_i128_minus(a));
 }
 
-cage_i256 cage_i256_sub(cage_i256 a, cage_i256 b)
+int32_t cage_i256_sign(const cage_i256 *a)
 {
-    cage_i256 one = {{1, 0, 0, 0}};
-    for (int32_t i = 0; i < 4; i++)
-        b.word[i] = ~b.word[i];
-    return cage_i256_add(cage_i256_add(a, b), one);
-}
-
-int32_t cage_i256_sign(cage_i256 a)
-{
-    if (a.word[3] >> 63)
+    if (a->word[3] >> 63)
         return -1;
-    return (a.word[0] | a.word[1] | a.word[2] | a.word[3]) != 0;
+    return (a->word[0] | a->word[1] | a->word[2] | a->word[3]) != 0;
 }

@@ -146,10 +146,15 @@ static CAGE_INLINE bool cage_i128_positive(cage_i128 a)
     return cage_i128_negative(cage_i128_sub(cage_i128_make(0, 0), a));
 }
 
-static CAGE_INLINE cage_i128 cage_i128_abs(cage_i128 a)
+/* *sum += a b */
+static CAGE_INLINE void cage_i128_add_product(cage_i128 *sum, int64_t a, int64_t b)
 {
-    return cage_i128_negative(a) ? cage_i128_sub(cage_i128_of(0), a) : a;
+    *sum = cage_i128_add(*sum, cage_i128_mul(a, b));
 }
+
+static CAGE_INLINE cage_i128 cage_i128_minus(cage_i128 a) { return cage_i128_sub(cage_i128_of(0), a); }
+
+static CAGE_INLINE cage_i128 cage_i128_abs(cage_i128 a) { return cage_i128_negative(a) ? cage_i128_minus(a) : a; }
 
 /* The sign of a - b, whatever their size. */
 static CAGE_INLINE int32_t cage_i128_compare(cage_i128 a, cage_i128 b)
@@ -184,9 +189,10 @@ typedef struct cage_i256 {
     uint64_t word[4]; /* least significant first */
 } cage_i256;
 
-cage_i256 cage_i256_mul(cage_i128 a, cage_i128 b);
-cage_i256 cage_i256_add(cage_i256 a, cage_i256 b);
-cage_i256 cage_i256_sub(cage_i256 a, cage_i256 b);
-int32_t cage_i256_sign(cage_i256 a);
+/* *sum += a b, modulo 2^256. */
+void cage_i256_add_product(cage_i256 *sum, cage_i128 a, cage_i128 b);
+
+/* -1, 0 or 1 */
+int32_t cage_i256_sign(const cage_i256 *a);
 
 #endif

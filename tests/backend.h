@@ -30,9 +30,9 @@ enum wide_op {
     WIDE_NEAREST,   /* a by b, limit c */
     WIDE_FLOOR,
     WIDE_ROOT,
-    WIDE_MUL256,    /* a times b, both of 128 bits */
-    WIDE_ADD256,
-    WIDE_SUB256,
+    WIDE_MINUS,     /* -a */
+    WIDE_PRODUCT,   /* a times b, both of 128 bits, added to 0 */
+    WIDE_SUM,       /* a of 256 bits, and b of 128 times c */
     WIDE_SIGN256,
     WIDE_OPS
 };

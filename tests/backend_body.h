@@ -29,6 +29,8 @@ static words words_of(cage_i256 a)
 static words backend_wide(enum wide_op op, words a, words b, int64_t c)
 {
     cage_i128 x = narrow(a), y = narrow(b), rest;
+    const cage_i256 none = {{0, 0, 0, 0}};
+    cage_i256 sum;
     switch (op) {
     case WIDE_MAKE: return widen(x);
     case WIDE_OF: return widen(cage_i128_of(c));
@@ -49,10 +51,10 @@ static words backend_wide(enum wide_op op, words a, words b, int64_t c)
     case WIDE_NEAREST: return number(cage_i128_nearest(x, y, c));
     case WIDE_FLOOR: return number(cage_i128_floor(x, y, c));
     case WIDE_ROOT: return number((int64_t)cage_u128_root(x));
-    case WIDE_MUL256: return words_of(cage_i256_mul(x, y));
-    case WIDE_ADD256: return words_of(cage_i256_add(all(a), all(b)));
-    case WIDE_SUB256: return words_of(cage_i256_sub(all(a), all(b)));
-    case WIDE_SIGN256: return number(cage_i256_sign(all(a)));
+    case WIDE_MINUS: return widen(cage_i128_minus(x));
+    case WIDE_PRODUCT: sum = none; cage_i256_add_product(&sum, x, y); return words_of(sum);
+    case WIDE_SUM: sum = all(a); cage_i256_add_product(&sum, y, cage_i128_of(c)); return words_of(sum);
+    case WIDE_SIGN256: sum = all(a); return number(cage_i256_sign(&sum));
     default: return number(0);
     }
 }

@@ -12,9 +12,7 @@
 #define cage_i128_nearest RENAME(i128_nearest)
 #define cage_i128_floor RENAME(i128_floor)
 #define cage_u128_root RENAME(u128_root)
-#define cage_i256_mul RENAME(i256_mul)
-#define cage_i256_add RENAME(i256_add)
-#define cage_i256_sub RENAME(i256_sub)
+#define cage_i256_add_product RENAME(i256_add_product)
 #define cage_i256_sign RENAME(i256_sign)
 
 #define CAGE_FACE_2D RENAME(face_2d)

@@ -154,6 +154,40 @@ START_TEST(balls_are_closed)
 }
 END_TEST
 
+/* A ball far from the origin of its frame, beside another along an axis, or about as near to two: a unit nearer than in contact it
+ * collides. */
+START_TEST(far_from_the_frame)
+{
+    uint64_t state = 23;
+    int32_t hits = 0, rounds = 0;
+    for (int32_t round = 0; round < (quick() ? 8 : 40); round++) {
+        int32_t dim = 2 + round % 2, far = (dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D) / 20 * 13, sum = 5000;
+        const cage_ball guest = {round & 2 ? far : -far, round & 4 ? far : -far, dim == 2 ? 0 : far / 3, 1000};
+        const cage_ball ball[3] = {{17, -5, 0, 4000}, {17 + 2 * sum, -5, 0, 4000}, {17, 2 * sum - 5, 0, 4000}};
+        const cage_scene view = {{&guest, &guest, 1, 1}, {ball, ball, 3, 3}, dim};
+        const int32_t from[3] = {guest.x, guest.y, guest.z}, to[3] = {ball[0].x, ball[0].y, ball[0].z};
+        struct made m;
+        make_at(&view, 0, 0, &m);
+        for (int32_t k = 0; k < 500; k++) {
+            cage_pose pose = {{0, 0, 0}, {0, 0, 0, 0}};
+            int32_t moved[3], axis = (int32_t)test_between(&state, 0, dim - 1);
+            for (int32_t i = 0; i < 4; i++) /* |q|^2 above 2^31, so that bits are cut off */
+                pose.q[i] = dim == 2 && (i == 1 || i == 2) ? 0 : (int32_t)test_between(&state, 46350 / dim, 100000 / dim) * (k >> i & 1 ? 1 : -1);
+            cage_pose_pivot(&pose, from, moved);
+            for (int32_t i = 0; i < dim; i++)
+                pose.x[i] = to[i] - moved[i];
+            pose.x[axis] += (sum - (int32_t)test_between(&state, -2, 3)) * (k & 16 ? 1 : -1);
+            bool hit = cage_collides(&view, &pose, CAGE_SIDE_INNER) == 1;
+            ck_assert_int_eq(cage_atlas_ask(&m.atlas, &pose, NULL) == CAGE_IN_COLLISION, hit);
+            hits += hit;
+            rounds++;
+        }
+        drop(&m);
+    }
+    ck_assert(hits > rounds / 4 && hits < rounds / 8 * 7);
+}
+END_TEST
+
 /* Points of a grid of pitch 1000 from 0 to size[k] that are on the faces of the block, or on the wall across its middle. */
 static int32_t rooms(int32_t dim, const int32_t size[3], int32_t r, cage_ball *ball)
 {
@@ -1212,6 +1246,7 @@ int main(void)
     TCase *harm = blocks_case(suite, "damage");
     tcase_add_test(truth, four_fingers);
     tcase_add_test(truth, balls_are_closed);
+    tcase_add_test(truth, far_from_the_frame);
     tcase_add_loop_test(truth, two_rooms, 0, 2);
     tcase_add_test(truth, cutting_decides);
     tcase_add_test(scenes, plane_scenes);

@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 
+#include "body.h"
 #include "exact.h"
 #include "grid.h"
 
@@ -113,6 +114,56 @@ START_TEST(quarter_turns_are_exact)
             test_require(mpq_cmp_si(right[k], got[k], 1) == 0);
     }
     mpq_clears(right[0], right[1], right[2], NULL);
+}
+END_TEST
+
+/* Within 2.2 by rough rotations, and one coordinate beyond 1.2; where the pivot is, exactly to nearest, a half upward. */
+START_TEST(rough_places)
+{
+    const int32_t most = 1 << 28;
+    int32_t rounds = test_rounds(60000);
+    uint64_t state = 17;
+    bool beyond = false;
+    mpq_t right[3], far, half;
+    mpq_inits(right[0], right[1], right[2], far, half, NULL);
+    mpq_set_ui(half, 1, 2);
+    for (int32_t round = 0; round < rounds; round++) {
+        int32_t dim = 2 + round % 2, q[4], y[3], got[3];
+        struct cage_rough rough;
+        cage_pose pose = {{0, 0, 0}, {0, 0, 0, 0}};
+        any_quaternion(&state, dim, q);
+        for (int k = 0; k < 4 && round % 8 > 3; k++) /* |q|^2 just above 2^31 loses most: a bit of 32 */
+            q[k] = dim == 2 && (k == 1 || k == 2) ? 0 : (int32_t)test_between(&state, 23000, 33000) * (round % 16 > 7 && k ? -1 : 1);
+        for (int k = 0; k < 3; k++) {
+            y[k] = k >= dim ? 0 : round % 4 ? (int32_t)test_spread(&state, most) : test_between(&state, 0, 1) ? most : -most;
+            pose.x[k] = k < dim ? (int32_t)test_spread(&state, most) : 0;
+        }
+        if (round % 32 == 0) /* a third and two thirds of a half turn, and halves of odd numbers */
+            for (int k = 0; k < 4; k++)
+                q[k] = k == 0 ? 1 : k == 3 ? round % 64 ? 1 : 3 : dim == 2 ? 0 : 1;
+        memcpy(pose.q, q, sizeof q);
+        rotate_exactly(q, y, right);
+        cage_rough_of(q, &rough);
+        cage_rough_rotate(&rough, y, got);
+        test_require(rough.one >= 1 << 30);
+        for (int k = 0; k < 3; k++) {
+            mpq_set_si(far, got[k], 1);
+            mpq_sub(far, far, right[k]);
+            mpq_abs(far, far);
+            test_require(mpq_cmp_ui(far, 22, 10) < 0);
+            beyond = beyond || mpq_cmp_ui(far, 12, 10) > 0;
+        }
+        cage_pose_pivot(&pose, y, got);
+        for (int k = 0; k < 3; k++) { /* x + R y - got is from -1/2 on, below 1/2 */
+            mpq_set_si(far, (long)pose.x[k] - got[k], 1);
+            mpq_add(far, far, right[k]);
+            test_require(mpq_cmp(far, half) < 0);
+            mpq_neg(far, far);
+            test_require(mpq_cmp(far, half) <= 0);
+        }
+    }
+    ck_assert(beyond);
+    mpq_clears(right[0], right[1], right[2], far, half, NULL);
 }
 END_TEST
 
@@ -263,6 +314,7 @@ int main(void)
     TCase *tests = test_case(suite, "grid");
     tcase_add_test(tests, rotates_to_nearest);
     tcase_add_test(tests, quarter_turns_are_exact);
+    tcase_add_test(tests, rough_places);
     tcase_add_test(tests, turns_are_upper_bounds);
     tcase_add_test(tests, lengths_and_displacements);
     tcase_add_test(tests, slacks_cover_what_rounds);

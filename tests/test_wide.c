@@ -112,16 +112,13 @@ static bool define(enum wide_op op, words a, words b, int64_t c, words *out)
         count = 1;
         mpz_sqrt(expected, u);
         break;
-    case WIDE_MUL256: count = 4; mpz_mul(expected, x, y); break;
-    case WIDE_ADD256:
-    case WIDE_SUB256:
+    case WIDE_MINUS: mpz_neg(expected, x); break;
+    case WIDE_PRODUCT: count = 4; mpz_mul(expected, x, y); break;
+    case WIDE_SUM:
         count = 4;
+        mpz_mul(expected, expected, y);
         number_of(x, a, 4, true);
-        number_of(y, b, 4, true);
-        if (op == WIDE_ADD256)
-            mpz_add(expected, x, y);
-        else
-            mpz_sub(expected, x, y);
+        mpz_add(expected, expected, x);
         break;
     case WIDE_SIGN256: count = 1; number_of(x, a, 4, true); mpz_set_si(expected, mpz_sgn(x)); break;
     default: return false;

@@ -56,9 +56,13 @@ for name in cortex-m3 rv32; do
         "${PREFIX}gcc" -std=c99 -Os $FLAGS -ffunction-sections -Iinclude tests/firmware/linked.c "$here"/*.o -nostartfiles \
             $LINK -Wl,-e,$entry -Wl,--gc-sections -o "$out/image" || exit 1
         echo "$name linked $entry $("${PREFIX}size" "$out/image" | awk 'NR == 2 { print $1 }')" >>"$out/taken"
+        "${PREFIX}gcc" -std=c99 -Os -flto $FLAGS -ffunction-sections -Iinclude tests/firmware/linked.c src/*.c -nostartfiles \
+            $LINK -Wl,-e,$entry -Wl,--gc-sections -o "$out/image" || exit 1
+        echo "$name flto $entry $("${PREFIX}size" "$out/image" | awk 'NR == 2 { print $1 }')" >>"$out/taken"
     done
     awk -v name=$name '$1 == name && $2 == "text" { sum += $4 } $1 == name && $2 == "linked" { linked = linked " " $3 " " $4 }
-        END { print "note: " name ": text " sum ", linked:" linked }' "$out/taken"
+        $1 == name && $2 == "flto" { flto = flto " " $3 " " $4 }
+        END { print "note: " name ": text " sum ", linked:" linked ", with -flto:" flto }' "$out/taken"
 done
 
 if [ "$1" = --write ]; then
