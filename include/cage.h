@@ -175,8 +175,8 @@ int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage
 
 /* Do at most that many steps; a step builds one slice, glues one pair of slices, refines one cell, or writes or shortens one leg
  * of a path. With n object balls and m obstacle balls a slice triangulates at most n m balls, and a step 6 n m: two slices that
- * were dropped and are built again, at worst twice, and their balls together. Beside that a step goes through cells and known
- * edges, and the last one of a path checks all of it. 1: finished, 0: more to do, negative: an error (the result keeps its
+ * were dropped and are built again, at worst twice, and their balls together (again each time that a block of hardly enough bytes
+ * has to be shared out anew). Beside that a step goes through cells and known edges, and the last one of a path checks all of it. 1: finished, 0: more to do, negative: an error (the result keeps its
  * counts, and needed_bytes). The answer does not depend on how the steps are portioned. */
 int32_t cage_prove_run(cage_proof *proof, int64_t steps);
 
@@ -299,6 +299,13 @@ void cage_plan_default(cage_plan *plan);
 /* Bytes that are enough for a survey to begin, at any alignment; 0 if scene or plan are not valid. To finish it takes what the
  * atlas takes (see needed_bytes), and some. */
 size_t cage_survey_size(const cage_scene *scene, const cage_plan *plan);
+
+/* The same as a constant expression, for a block that is an array: never less, and at most 1.5 times that. For shapes with no more
+ * balls than these on either side. max_cells: the plan's, or where that is 0 as many as there are down to its level (in the
+ * plane 2, 6, 14, 30, ..., in space 4, 36, 292, ...; 2048 and 8192 for level -1). */
+#define CAGE_SURVEY_BYTES(dim, objects, obstacles, max_cells)                                                             \
+    (512 + 4 * CAGE_PROVE_BYTES_OF_ONE(objects, ((dim) == 2 ? 600ul : 1400ul) * (objects) * (obstacles), 1ul * (max_cells)) +  \
+     128 * ((max_cells) + 2ul) + 64ul * (obstacles))
 
 /* The scene's balls are read until the atlas was written; memory (any alignment) is used until then. */
 int32_t cage_survey_begin(cage_survey **survey, const cage_scene *scene, const cage_plan *plan, void *memory, size_t bytes);

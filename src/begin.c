@@ -83,7 +83,7 @@ static uint64_t work_bytes(const cage_scene *scene)
 }
 
 /* What is left of the block is shared out: of the first 256 KiB a 16th for facts and 9 20ths to work in, of what is beyond
- * an eighth and half; all others are to hold slices, at the expense of which there can be more facts later, and so is what working
+ * an eighth and half; all others are to hold slices, at the expense of which there can be more of the other two later, and so is what working
  * cannot take: the most it ever takes and a sixteenth. (Each part grows with the block: a larger one serves as well.) Where all
  * facts are kept, half is for them and a third to work in. */
 enum { FACTS_PART = 8, WORK_PART = 2, ALL_FACTS_PART = 2, ALL_WORK_PART = 3, LEAST_WORK_PART = 16, WORK_TIMES = 4 };
@@ -109,10 +109,29 @@ static void share_out(struct cage_proof *proof)
     cage_arena_init(&proof->scratch, at + hold, left - facts - hold);
 }
 
+/* Working gets a 64th to a 32nd more, up to a size that does not depend on the one it began with: so a larger block still serves. */
+static bool make_room_to_work(struct cage_proof *proof)
+{
+    struct cage_arena *scratch = &proof->scratch;
+    struct cage_store *store = &proof->store;
+    uint32_t bits = cage_u64_bits(scratch->size);
+    size_t unit = bits > 9 ? (size_t)1 << (bits - 6) : CAGE_ALIGN, peak = scratch->peak;
+    size_t more = (scratch->size / unit + 1) * unit - scratch->size;
+    if (more > store->size)
+        return false;
+    cage_store_clear(store);
+    cage_store_init(store, store->base, store->size - more);
+    cage_arena_init(scratch, scratch->base - more, scratch->size + more);
+    scratch->peak = peak;
+    return true;
+}
+
 bool cage_proof_make_room(struct cage_proof *proof)
 {
     struct cage_arena *arena = &proof->arena;
     struct cage_store *store = &proof->store;
+    if (proof->scratch.needed > proof->scratch.size)
+        return make_room_to_work(proof);
     size_t missing = arena->needed > arena->size ? arena->needed - arena->size : 0;
     if (proof->path && proof->path_count == proof->path_room)
         missing = SPARE_POSES * sizeof *proof->path;

@@ -76,8 +76,8 @@ bool cage_proof_spares_outer(const struct cage_proof *proof);
 /* Add up the results of both searches. */
 void cage_proof_total(struct cage_proof *proof);
 
-/* After a step that failed for lack of memory: was it facts or path that found none, and did they get some of the store's, which
- * is emptied? Then the step can be taken again: so far it has done nothing, but that the path may have become longer. */
+/* After a step that failed for lack of memory: was it work, facts or path that found none, and did they get some of the store's,
+ * which is emptied? Then the step can be taken again: so far it has done nothing, but that the path may have become longer. */
 bool cage_proof_make_room(struct cage_proof *proof);
 
 /* The block to try next, after CAGE_ERROR_MEMORY. */

@@ -57,14 +57,18 @@ static int32_t build_slice(struct cage_proof *proof, int32_t side, int32_t cell,
     struct cage_facts *facts = &proof->graph.cell[cell].facts[side];
     int32_t error = take_or_make(proof, side, cell, &slice);
     if (error == CAGE_OK && facts->nodes == 0) {
+        size_t before = proof->arena.used;
         error = cage_graph_add_nodes(&proof->graph, side, cell, slice.regions);
+        if (error == CAGE_OK && side == CAGE_OUTER)
+            error = place_inside(proof, &slice, cell);
         if (error == CAGE_OK) {
             proof->result.slices[side]++;
             proof->result.balls[side] += slice.balls;
             proof->result.inserted[side] += slice.t.sites - slice.t.dim - 1;
+        } else { /* as if it had not been tried */
+            facts->nodes = 0;
+            cage_arena_release(&proof->arena, before);
         }
-        if (error == CAGE_OK && side == CAGE_OUTER)
-            error = place_inside(proof, &slice, cell);
     }
     if (error == CAGE_OK)
         error = hold(proof, side, cell, &slice);

@@ -48,6 +48,10 @@ void cage_plan_default(cage_plan *plan)
         *plan = usual;
 }
 
+/* CAGE_SURVEY_BYTES takes these to be large enough; else this divides by 0. */
+enum { SURVEY_HEAD = sizeof(struct cage_survey), SHEET_BYTES = sizeof(struct cage_sheet) };
+enum { SURVEY_BYTES_HOLDS = 1 / (SURVEY_HEAD <= 512 && SHEET_BYTES <= 32 ? 1 : 0) };
+
 size_t cage_survey_size(const cage_scene *scene, const cage_plan *plan)
 {
     cage_limits limits;

@@ -17,6 +17,7 @@ enum wide_op {
     WIDE_UMUL,      /* a.word[0] times b.word[0], unsigned */
     WIDE_ADD,       /* a + b */
     WIDE_SUB,       /* a - b */
+    WIDE_ADD_PRODUCT, /* a + b.word[0] times c, signed */
     WIDE_SCALE,     /* a times c */
     WIDE_SHR,       /* a by b.word[0] % 128 */
     WIDE_SHL,

@@ -38,6 +38,7 @@ static words backend_wide(enum wide_op op, words a, words b, int64_t c)
     case WIDE_UMUL: return widen(cage_u64_mul(a.word[0], b.word[0]));
     case WIDE_ADD: return widen(cage_i128_add(x, y));
     case WIDE_SUB: return widen(cage_i128_sub(x, y));
+    case WIDE_ADD_PRODUCT: cage_i128_add_product(&x, (int64_t)b.word[0], c); return widen(x);
     case WIDE_SCALE: return widen(cage_i128_scale(x, c));
     case WIDE_SHR: return widen(cage_i128_shr(x, (uint32_t)(b.word[0] % 128)));
     case WIDE_SHL: return widen(cage_i128_shl(x, (uint32_t)(b.word[0] % 128)));

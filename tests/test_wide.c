@@ -69,6 +69,7 @@ static bool define(enum wide_op op, words a, words b, int64_t c, words *out)
     case WIDE_UMUL: number_of(u, a, 1, false); number_of(v, b, 1, false); mpz_mul(expected, u, v); break;
     case WIDE_ADD: mpz_add(expected, x, y); break;
     case WIDE_SUB: mpz_sub(expected, x, y); break;
+    case WIDE_ADD_PRODUCT: number_of(y, b, 1, true); mpz_mul(expected, expected, y); mpz_add(expected, expected, x); break;
     case WIDE_SCALE: mpz_mul(expected, expected, x); break;
     case WIDE_SHR: mpz_fdiv_q_2exp(expected, u, b.word[0] % 128); break;
     case WIDE_SHL: mpz_mul_2exp(expected, u, b.word[0] % 128); break;
@@ -160,6 +161,7 @@ static void judge(long at_least)
         }
     ck_assert_int_gt(tallies[2].wrong[WIDE_ADD], 0);
     ck_assert_int_gt(tallies[3].wrong[WIDE_MUL], 0);
+    ck_assert(tallies[2].wrong[WIDE_ADD_PRODUCT] > 0 && tallies[3].wrong[WIDE_ADD_PRODUCT] > 0);
     ck_assert_int_eq(tallies[2].wrong[WIDE_SUB] + tallies[2].wrong[WIDE_MUL], 0);
     ck_assert_int_eq(tallies[3].wrong[WIDE_ADD] + tallies[3].wrong[WIDE_UMUL], 0);
     memset(tallies, 0, sizeof tallies);

@@ -159,26 +159,62 @@ static int32_t prove(const struct entry *e, const cage_scene *scene)
 }
 
 /* A part of 5 balls in 40 obstacles, in 64 KiB; where pointers have 64 bits, in half as much again. */
-static int32_t prove_in_little(const struct entry *e)
+static int32_t prove_in_little(const cage_scene *scene, const cage_pose *start, const cage_pose *goal, int32_t verdict)
 {
-    const cage_shape object = {e->object, e->object, e->objects, e->objects};
-    const cage_shape obstacles = {e->obstacle, e->obstacle, e->obstacles, e->obstacles};
-    const cage_scene scene = {object, obstacles, 2};
     const cage_limits limits = {CAGE_SIDE_INNER, -1, 12, 16};
     cage_proof *proof;
     size_t bytes = sizeof(void *) == 4 ? 65536 : 98304;
-    int32_t state = cage_prove_begin(&proof, &scene, &e->start, &e->goal, &limits, block.byte, bytes);
+    int32_t state = cage_prove_begin(&proof, scene, start, goal, &limits, block.byte, bytes);
     while (state == 0)
         state = cage_prove_run(proof, 1);
-    if (state < 0)
+    if (state == CAGE_ERROR_MEMORY)
+        field("in little memory: not enough, try ", cage_prove_result(proof)->needed_bytes);
+    if (state < 0) {
+        put("\n");
         return 1;
+    }
     add_result(&all_hash, cage_prove_result(proof));
-    field("in little memory: ", (uint64_t)e->objects);
-    field(" balls in ", (uint64_t)e->obstacles);
+    field("in little memory: ", (uint64_t)scene->object.inner_count);
+    field(" balls in ", (uint64_t)scene->obstacles.inner_count);
     put(": ");
     put(cage_verdict_text(cage_prove_result(proof)->verdict));
     put("\n");
-    return cage_prove_result(proof)->verdict != CAGE_DISCONNECTED;
+    return cage_prove_result(proof)->verdict != verdict;
+}
+
+static int32_t draw(uint32_t *state, int32_t low, int32_t high)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return low + (int32_t)((*state >> 8) % (uint32_t)(high - low + 1));
+}
+
+/* Twelve such parts, each in a rough ring of obstacles that overlap their neighbours: closed, however they are drawn. */
+static int32_t prove_rings(void)
+{
+    enum { BALLS = 40, PART = 5, COS = 1060522280 /* of 9 degrees, times 2^30 */, SIN = 167970228 };
+    static cage_ball ring[BALLS], part[PART];
+    const cage_shape object = {part, part, PART, PART}, obstacles = {ring, ring, BALLS, BALLS};
+    const cage_scene scene = {object, obstacles, 2};
+    const cage_pose start = {{0, 0, 0}, {1, 0, 0, 0}};
+    int32_t failed = 0;
+    for (uint32_t seed = 1; seed <= 12; seed++) {
+        uint32_t state = 77777 * seed;
+        int32_t size = draw(&state, 70000, 110000);
+        int64_t x = size, y = 0;
+        for (int32_t i = 0; i < PART; i++) {
+            const cage_ball made = {draw(&state, -20000, 20000), draw(&state, -20000, 20000), 0, draw(&state, 6000, 15000)};
+            part[i] = made;
+        }
+        for (int32_t i = 0; i < BALLS; i++) {
+            const int64_t far = draw(&state, 80, 120), turned = (x * COS - y * SIN) / (1 << 30);
+            const cage_ball made = {(int32_t)(x * far / 100), (int32_t)(y * far / 100), 0, draw(&state, size / 100 * 24, size / 100 * 30)};
+            ring[i] = made;
+            y = (x * SIN + y * COS) / (1 << 30);
+            x = turned;
+        }
+        failed += prove_in_little(&scene, &start, NULL, CAGE_CAGED);
+    }
+    return failed;
 }
 
 /* ---- atlases -------------------------------------------------------------------------------------------- */
@@ -213,6 +249,12 @@ static int32_t survey(const struct entry *e, const cage_scene *scene)
     cage_plan_default(&plan);
     plan.level = e->level;
     plan.max_cells = e->dim == 2 ? 100 : 0;
+    size_t least = cage_survey_size(scene, &plan);
+    size_t bytes = CAGE_SURVEY_BYTES(e->dim, e->objects, e->obstacles, e->dim == 2 ? 100 : e->level == 0 ? 4 : 36);
+    if (bytes < least || 2 * bytes > 3 * least || e->level > (e->dim == 2 ? 4 : 1)) {
+        put("CAGE_SURVEY_BYTES is wrong\n");
+        return 1;
+    }
     int32_t state = cage_survey_begin(&made, scene, &plan, block.byte, BLOCK);
     while (state == 0)
         state = cage_survey_run(made, 1);
@@ -243,6 +285,10 @@ static int32_t survey(const struct entry *e, const cage_scene *scene)
     field(", steps ", (uint64_t)r->steps);
     field(", classes ", (uint64_t)r->classes[0]);
     field(" and ", (uint64_t)r->classes[1]);
+    if (bytes < r->peak_bytes) {
+        put("it took more than CAGE_SURVEY_BYTES\n");
+        return 1;
+    }
     field(", questions ", asked);
     put(", hash ");
     put_hash(hash);
@@ -262,8 +308,9 @@ int main(void)
         const cage_scene scene = {object, obstacles, e->dim};
         failed += prove(e, &scene);
         failed += e->level >= 0 ? survey(e, &scene) : 0;
-        failed += e->seed == 193 ? prove_in_little(e) : 0;
+        failed += e->seed == 193 ? prove_in_little(&scene, &e->start, &e->goal, CAGE_DISCONNECTED) : 0;
     }
+    failed += prove_rings();
     field("all: failed ", (uint64_t)failed);
     field(", steps ", all_steps);
     field(", most balls in a step ", worst_balls);
