@@ -113,22 +113,30 @@ static void count_pairs(uint64_t *state, const struct cage_slice *c, const struc
     }
 }
 
+/* Two neighbouring slices with pockets, in every fourth some that vanish; the block of their arena. */
+static void *make_slices(int32_t dim, int32_t seed, uint64_t first, struct cage_arena *arena, struct cage_slice *c,
+                         struct cage_slice *d)
+{
+    struct pockets p;
+    struct cage_side side;
+    void *block = test_alloc(ARENA);
+    cage_arena_init(arena, block, ARENA);
+    (seed % 4 ? pockets_make : pockets_vanish)(dim, first + (uint64_t)seed, &p);
+    pockets_side(arena, &p, &side);
+    test_require(cage_slice_make(arena, &side, &p.at[0], c) == CAGE_OK);
+    test_require(cage_slice_make(arena, &side, &p.at[1], d) == CAGE_OK);
+    return block;
+}
+
 START_TEST(holds_what_is_free)
 {
     struct tally tally = {0, 0, 0, 0, 0};
     int32_t rounds = test_rounds(_i == 2 ? 800 : 500);
     for (int32_t seed = 0; seed < rounds; seed++) {
         struct cage_arena arena;
-        struct pockets p;
-        struct cage_side side;
         struct cage_slice c, d;
         uint64_t state = (uint64_t)seed;
-        void *block = test_alloc(ARENA);
-        cage_arena_init(&arena, block, ARENA);
-        (seed % 4 ? pockets_make : pockets_vanish)(_i, (uint64_t)seed, &p);
-        pockets_side(&arena, &p, &side);
-        test_require(cage_slice_make(&arena, &side, &p.at[0], &c) == CAGE_OK);
-        test_require(cage_slice_make(&arena, &side, &p.at[1], &d) == CAGE_OK);
+        void *block = make_slices(_i, seed, 0, &arena, &c, &d);
         for (int n = 0; n < POINTS; n++) {
             int32_t x[3];
             choose_point(&state, n & 1 ? &c : &d, x);
@@ -219,16 +227,9 @@ START_TEST(boxes_hold_what_is_shared)
     int32_t rounds = test_rounds(_i == 2 ? 300 : 200);
     for (int32_t seed = 0; seed < rounds; seed++) {
         struct cage_arena arena;
-        struct pockets p;
-        struct cage_side side;
         struct cage_slice c, d;
         uint64_t state = (uint64_t)seed;
-        void *block = test_alloc(ARENA);
-        cage_arena_init(&arena, block, ARENA);
-        (seed % 4 ? pockets_make : pockets_vanish)(_i, 5000 + (uint64_t)seed, &p);
-        pockets_side(&arena, &p, &side);
-        test_require(cage_slice_make(&arena, &side, &p.at[0], &c) == CAGE_OK);
-        test_require(cage_slice_make(&arena, &side, &p.at[1], &d) == CAGE_OK);
+        void *block = make_slices(_i, seed, 5000, &arena, &c, &d);
         for (int32_t k = 1; k < c.regions; k++)
             for (int32_t l = 0; l < d.regions; l++) {
                 long found = check_overlap(&arena, &state, &c, k, &d, l);
