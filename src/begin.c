@@ -109,14 +109,23 @@ static void share_out(struct cage_proof *proof)
     cage_arena_init(&proof->scratch, at + hold, left - facts - hold);
 }
 
-/* Working gets a 64th to a 32nd more, up to a size that does not depend on the one it began with: so a larger block still serves. */
+/* A part that has to grow grows to one of the sizes with so many binary digits: where it began does not matter then, so that a
+ * larger block still serves. `least`: at least to this. */
+enum { WORK_DIGITS = 6, FACTS_DIGITS = 5 };
+
+static size_t grown(size_t size, size_t least, uint32_t digits)
+{
+    size_t beyond = least > size ? least - 1 : size;
+    uint32_t bits = cage_u64_bits(beyond);
+    size_t unit = bits > digits + 3 ? (size_t)1 << (bits - digits) : CAGE_ALIGN;
+    return (beyond / unit + 1) * unit;
+}
+
 static bool make_room_to_work(struct cage_proof *proof)
 {
     struct cage_arena *scratch = &proof->scratch;
     struct cage_store *store = &proof->store;
-    uint32_t bits = cage_u64_bits(scratch->size);
-    size_t unit = bits > 9 ? (size_t)1 << (bits - 6) : CAGE_ALIGN, peak = scratch->peak;
-    size_t more = (scratch->size / unit + 1) * unit - scratch->size;
+    size_t more = grown(scratch->size, 0, WORK_DIGITS) - scratch->size, peak = scratch->peak;
     if (more > store->size)
         return false;
     cage_store_clear(store);
@@ -132,11 +141,10 @@ bool cage_proof_make_room(struct cage_proof *proof)
     struct cage_store *store = &proof->store;
     if (proof->scratch.needed > proof->scratch.size)
         return make_room_to_work(proof);
-    size_t missing = arena->needed > arena->size ? arena->needed - arena->size : 0;
+    size_t missing = arena->needed > arena->size ? arena->needed - arena->size : 0, facts = arena->size - proof->fixed;
     if (proof->path && proof->path_count == proof->path_room)
         missing = SPARE_POSES * sizeof *proof->path;
-    size_t more = (arena->size - proof->fixed) / FIRST_FACTS_PART;
-    more = ((more > missing ? more : missing) + CAGE_ALIGN - 1) / CAGE_ALIGN * CAGE_ALIGN;
+    size_t more = grown(facts, facts + missing, FACTS_DIGITS) - facts;
     if (missing == 0 || more > store->size)
         return false;
     cage_store_clear(store);

@@ -109,6 +109,34 @@ START_TEST(dropped_slices_change_nothing)
 }
 END_TEST
 
+/* Where memory is short its parts grow, each at the expense of slices held: a larger block serves as well, always. */
+START_TEST(larger_blocks_serve)
+{
+    static const struct {
+        int32_t seed, side;
+    } asked[] = {{9, CAGE_SIDE_OUTER}, {900001, CAGE_SIDE_BOTH}, {900004, CAGE_SIDE_INNER}, {900007, CAGE_SIDE_BOTH}};
+    unsigned char *memory = test_alloc(PLENTY);
+    for (int32_t i = 0; i < 4; i++) {
+        scene s;
+        scene_random((uint64_t)asked[i].seed, &s);
+        cage_scene view = scene_view(&s);
+        const cage_limits limits = {asked[i].side, -1, 7, 128};
+        const question q = {&view, &s.start, scene_goal(&s), &limits};
+        cage_result right, r;
+        int32_t held, built, served = 0, tried = 0, rounds = test_rounds(160);
+        ck_assert_int_eq(run(&q, memory, PLENTY, &right, &held, &built), CAGE_OK);
+        size_t too_little, enough = least_block(&q, memory, &right, &too_little);
+        for (size_t bytes = too_little - 1024; tried < rounds; bytes += 32 + bytes % 24, tried++) {
+            int32_t error = run(&q, memory, bytes, &r, &held, &built);
+            ck_assert(error == CAGE_OK || (error == CAGE_ERROR_MEMORY && served == 0));
+            served += error == CAGE_OK;
+        }
+        ck_assert(enough > too_little && served > 0 && served < tried);
+    }
+    free(memory);
+}
+END_TEST
+
 /* ---- the ring alone ------------------------------------------------------------------------------------ */
 
 /* A slice of `size` balls in a row, made in the arena. */
@@ -199,5 +227,6 @@ int main(void)
     TCase *tests = test_case(suite, "store");
     tcase_add_test(tests, drops_the_oldest);
     tcase_add_test(tests, dropped_slices_change_nothing);
+    tcase_add_test(tests, larger_blocks_serve);
     return test_main(suite);
 }
