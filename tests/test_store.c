@@ -116,7 +116,7 @@ START_TEST(larger_blocks_serve)
         int32_t seed, side;
     } asked[] = {{9, CAGE_SIDE_OUTER}, {900001, CAGE_SIDE_BOTH}, {900004, CAGE_SIDE_INNER}, {900007, CAGE_SIDE_BOTH}};
     unsigned char *memory = test_alloc(PLENTY);
-    for (int32_t i = 0; i < 4; i++) {
+    for (int32_t i = test_rounds(4); i-- > 0;) {
         scene s;
         scene_random((uint64_t)asked[i].seed, &s);
         cage_scene view = scene_view(&s);
@@ -124,9 +124,10 @@ START_TEST(larger_blocks_serve)
         const question q = {&view, &s.start, scene_goal(&s), &limits};
         cage_result right, r;
         int32_t held, built, served = 0, tried = 0, rounds = test_rounds(160);
+        rounds = rounds < 24 ? 24 : rounds; /* over 7 KiB, of which the first is too little */
         ck_assert_int_eq(run(&q, memory, PLENTY, &right, &held, &built), CAGE_OK);
         size_t too_little, enough = least_block(&q, memory, &right, &too_little);
-        for (size_t bytes = too_little - 1024; tried < rounds; bytes += 32 + bytes % 24, tried++) {
+        for (size_t bytes = too_little - 1024; tried < rounds; bytes += 7168 / (size_t)rounds - 8 + bytes % 16, tried++) {
             int32_t error = run(&q, memory, bytes, &r, &held, &built);
             ck_assert(error == CAGE_OK || (error == CAGE_ERROR_MEMORY && served == 0));
             served += error == CAGE_OK;
