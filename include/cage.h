@@ -175,9 +175,10 @@ int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage
 
 /* Do at most that many steps; a step builds one slice, glues one pair of slices, refines one cell, or writes or shortens one leg
  * of a path. With n object balls and m obstacle balls a slice triangulates at most n m balls, and a step 6 n m: two slices that
- * were dropped and are built again, at worst twice, and their balls together (again each time that a block of hardly enough bytes
- * has to be shared out anew). Beside that a step goes through cells and known edges, and the last one of a path checks all of it. 1: finished, 0: more to do, negative: an error (the result keeps its
- * counts, and needed_bytes). The answer does not depend on how the steps are portioned. */
+ * were dropped and are built again, at worst twice, and their balls together (again each time that a block of hardly enough
+ * bytes has to be shared out anew). Beside that a step goes through cells and known edges, and the last one of a path checks all
+ * of it. 1: finished, 0: more to do, negative: an error (the result keeps its counts, and needed_bytes). The answer does not
+ * depend on how the steps are portioned. */
 int32_t cage_prove_run(cage_proof *proof, int64_t steps);
 
 /* Several cores for one proof. run calls task(data, i, w) once for each i in 0..tasks - 1, in any order, all at once

@@ -24,8 +24,8 @@ struct move {
     int64_t change; /* of their radii */
 };
 
-/* A site: where it arrives in d, and its least weight on the way, less what interpolation takes; -1: it is a sentinel, or there is no
- * such ball in d. */
+/* A site: where it arrives in d, and its least weight on the way, less what interpolation takes; -1: it is a sentinel, or there
+ * is no such ball in d. */
 struct cage_mover {
     int64_t at[3];
     int64_t weight;

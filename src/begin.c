@@ -82,10 +82,10 @@ static uint64_t work_bytes(const cage_scene *scene)
     return (scene->dim == 2 ? 600 : 1400) * (inner > outer ? inner : outer) + 32768;
 }
 
-/* What is left of the block is shared out: of the first 256 KiB a 16th for facts and 9 20ths to work in, of what is beyond
- * an eighth and half; all others are to hold slices, at the expense of which there can be more of the other two later, and so is what working
- * cannot take: the most it ever takes and a sixteenth. (Each part grows with the block: a larger one serves as well.) Where all
- * facts are kept, half is for them and a third to work in. */
+/* What is left of the block is shared out: of the first 256 KiB a 16th for facts and 9 20ths to work in, of what is beyond an
+ * eighth and half; all others are to hold slices, at the expense of which there can be more of the other two later, and so is
+ * what working cannot take: the most it ever takes and a sixteenth. (Each part grows with the block: a larger one serves as
+ * well.) Where all facts are kept, half is for them and a third to work in. */
 enum { FACTS_PART = 8, WORK_PART = 2, ALL_FACTS_PART = 2, ALL_WORK_PART = 3, LEAST_WORK_PART = 16, WORK_TIMES = 4 };
 enum { FIRST_BYTES = 256 << 10, FIRST_FACTS_PART = 16, FIRST_WORK_20THS = 9, SPARE_POSES = 64 };
 

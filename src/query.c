@@ -153,7 +153,8 @@ static int32_t next_of_ball(const cage_atlas *atlas, const int32_t at[3], struct
 {
     uint32_t size = (uint32_t)atlas->dim + 1, obstacles = cage_read_word(atlas, CAGE_ATLAS_OBSTACLE + 1);
     int64_t far = (int64_t)pair->y.r + cage_read_length(atlas, CAGE_ATLAS_LARGEST) + OFF_BY; /* no farther apart on an axis */
-    uint32_t j = pair->j > 0 ? pair->j : first_from(atlas, at[0] - far), place = cage_read_word(atlas, CAGE_ATLAS_OBSTACLE) + size * j;
+    uint32_t j = pair->j > 0 ? pair->j : first_from(atlas, at[0] - far);
+    uint32_t place = cage_read_word(atlas, CAGE_ATLAS_OBSTACLE) + size * j;
     for (; j < obstacles && cage_read_number(atlas, place) <= at[0] + far; j++, place += size) {
         int64_t aside = (int64_t)cage_read_number(atlas, place + 1) - at[1];
         if (aside > far || -aside > far)

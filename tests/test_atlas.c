@@ -172,7 +172,9 @@ START_TEST(far_from_the_frame)
             cage_pose pose = {{0, 0, 0}, {0, 0, 0, 0}};
             int32_t moved[3], axis = (int32_t)test_between(&state, 0, dim - 1);
             for (int32_t i = 0; i < 4; i++) /* |q|^2 above 2^31, so that bits are cut off */
-                pose.q[i] = dim == 2 && (i == 1 || i == 2) ? 0 : (int32_t)test_between(&state, 46350 / dim, 100000 / dim) * (k >> i & 1 ? 1 : -1);
+                pose.q[i] = dim == 2 && (i == 1 || i == 2)
+                                ? 0
+                                : (int32_t)test_between(&state, 46350 / dim, 100000 / dim) * (k >> i & 1 ? 1 : -1);
             cage_pose_pivot(&pose, from, moved);
             for (int32_t i = 0; i < dim; i++)
                 pose.x[i] = to[i] - moved[i];

@@ -202,12 +202,14 @@ static int32_t prove_rings(void)
         int32_t size = draw(&state, 70000, 110000);
         int64_t x = size, y = 0;
         for (int32_t i = 0; i < PART; i++) {
-            const cage_ball made = {draw(&state, -20000, 20000), draw(&state, -20000, 20000), 0, draw(&state, 6000, 15000)};
-            part[i] = made;
+            part[i].x = draw(&state, -20000, 20000); /* one after the other: the order is the compiler's in a list */
+            part[i].y = draw(&state, -20000, 20000);
+            part[i].r = draw(&state, 6000, 15000);
         }
         for (int32_t i = 0; i < BALLS; i++) {
             const int64_t far = draw(&state, 80, 120), turned = (x * COS - y * SIN) / (1 << 30);
-            const cage_ball made = {(int32_t)(x * far / 100), (int32_t)(y * far / 100), 0, draw(&state, size / 100 * 24, size / 100 * 30)};
+            const cage_ball made = {(int32_t)(x * far / 100), (int32_t)(y * far / 100), 0,
+                                    draw(&state, size / 100 * 24, size / 100 * 30)};
             ring[i] = made;
             y = (x * SIN + y * COS) / (1 << 30);
             x = turned;
