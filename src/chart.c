@@ -103,28 +103,33 @@ static void cut_to_ball(struct bounds *bounds, const struct cage_orthoball *ball
     }
 }
 
+/* ball: its orthoball, null beside the bounded components. */
+static void open(struct draft *draft, int32_t s, int32_t label, const struct cage_orthoball *ball)
+{
+    struct bounds made = {{0, 0, 0}, {0, 0, 0}, s, label};
+    for (int32_t i = 0; i <= draft->t->dim; i++) {
+        const struct cage_site *site = &draft->t->site[draft->t->simplex[s].v[i]];
+        widen(&made, 0, site->x, i == 0);
+        widen(&made, 1, site->y, i == 0);
+        widen(&made, 2, site->z, i == 0);
+    }
+    if (ball)
+        cut_to_ball(&made, ball);
+    draft->open[draft->openings] = draft->openings;
+    draft->opening[draft->openings++] = made;
+}
+
 /* All free simplices. One may be free as far as the balls triangulated go, and covered by one that was left out (see prune.h). */
 static void find_free(struct draft *draft)
 {
     const struct cage_triangulation *t = draft->t;
-    const struct cage_orthoball *ball = draft->slice->orthoball;
-    bool all = draft->slice->balls == t->sites - t->dim - 1;
-    for (int32_t s = 0; s < t->simplices; s++) {
-        int32_t label = draft->slice->label[s];
-        if (label == CAGE_COVERED && (all || !cage_component_free(t, s)))
-            continue;
-        struct bounds made = {{0, 0, 0}, {0, 0, 0}, s, label == CAGE_COVERED ? PHANTOM : label};
-        for (int32_t i = 0; i <= t->dim; i++) {
-            const struct cage_site *site = &t->site[t->simplex[s].v[i]];
-            widen(&made, 0, site->x, i == 0);
-            widen(&made, 1, site->y, i == 0);
-            widen(&made, 2, site->z, i == 0);
-        }
-        if (label > CAGE_OUTSIDE)
-            cut_to_ball(&made, ball++);
-        draft->open[draft->openings] = draft->openings;
-        draft->opening[draft->openings++] = made;
-    }
+    const struct cage_slice *slice = draft->slice;
+    bool all = slice->balls == t->sites - t->dim - 1;
+    for (int32_t i = 0; i < slice->orthoballs; i++)
+        open(draft, slice->orthoball[i].simplex, slice->label[slice->orthoball[i].simplex], &slice->orthoball[i]);
+    for (int32_t s = 0; s < t->simplices; s++)
+        if (slice->label[s] == CAGE_OUTSIDE || (slice->label[s] == CAGE_COVERED && !all && cage_component_free(t, s)))
+            open(draft, s, slice->label[s] == CAGE_OUTSIDE ? CAGE_OUTSIDE : PHANTOM, NULL);
 }
 
 /* Those of them whose bounds meet the box. */

@@ -1,7 +1,6 @@
 /* overlap: boxes around all that a component of one slice may share with a component of its neighbour.
  *
- * Of L only those pieces matter (piece.h) that meet the bounds of K. The simplices of d which these bounds meet hang together by
- * facets, and one of them holds a point of K: the search for them is local. */
+ * Of L only those pieces matter (piece.h) that meet the bounds of K. */
 #include "overlap.h"
 
 #include <string.h>
@@ -23,19 +22,6 @@ static int32_t best_direction(int32_t dim, const struct cage_bounds *bounds, con
     return best;
 }
 
-static const struct cage_orthoball *find_orthoball(const struct cage_slice *slice, int32_t s)
-{
-    int32_t low = 0, high = slice->orthoballs - 1; /* it is there: they are in order */
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        if (slice->orthoball[middle].simplex < s)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return &slice->orthoball[low];
-}
-
 /* One more, of an array that is the last thing in the arena since it was marked: in the same place. Null: no room. */
 static void *one_more(struct cage_arena *arena, size_t mark, int32_t count, size_t size)
 {
@@ -43,16 +29,13 @@ static void *one_more(struct cage_arena *arena, size_t mark, int32_t count, size
     return cage_arena_take(arena, (size_t)count + 1, size);
 }
 
-/* If the piece of L in simplex s may meet K, it is added. */
-static int32_t add_piece(struct cage_arena *arena, size_t mark, struct cage_overlap *o, int32_t s)
+/* If the piece of L in the ball's simplex may meet K, it is added. */
+static int32_t add_piece(struct cage_arena *arena, size_t mark, struct cage_overlap *o, const struct cage_orthoball *ball)
 {
     const struct cage_slice *d = o->d;
     const struct cage_bounds *bounds = &o->c->region[o->k].bounds;
-    struct cage_orthoball ball;
     struct cage_piece made;
-    if (o->l == CAGE_OUTSIDE)
-        cage_orthoball_of(&d->t, s, &ball);
-    cage_piece_make(&d->t, o->l == CAGE_OUTSIDE ? &ball : find_orthoball(d, s), &made);
+    cage_piece_make(&d->t, ball, &made);
     if (!cage_bounds_meet(d->t.dim, bounds, &made.bounds))
         return CAGE_OK;
     struct cage_piece *piece = one_more(arena, mark, o->pieces, sizeof *piece);
@@ -63,6 +46,16 @@ static int32_t add_piece(struct cage_arena *arena, size_t mark, struct cage_over
     o->piece = piece;
     cage_bounds_add(d->t.dim, &o->bounds, &made.bounds);
     return CAGE_OK;
+}
+
+/* Does the ball, if it was found, not meet what is within the bounds? */
+static bool is_away(int32_t dim, const struct cage_bounds *bounds, const struct cage_orthoball *ball)
+{
+    static const int8_t along[3] = {CAGE_ALONG_X, CAGE_ALONG_Y, CAGE_ALONG_Z};
+    bool away = false;
+    for (int32_t k = 0; k < dim && ball->radius >= 0; k++)
+        away = away || ball->at[k] - ball->radius >= bounds->high[along[k]] || ball->at[k] + ball->radius <= bounds->low[along[k]];
+    return away;
 }
 
 /* Does the simplex, by its vertices alone, not meet what is within the bounds? code: of each site, or 0. */
@@ -88,37 +81,84 @@ static uint32_t *no_codes(struct cage_arena *arena, const struct cage_triangulat
 
 enum { AWAY = 0, VISITED = 1 };
 
-/* The pieces of L that may meet K. The simplices of d that K's bounds meet hang together by facets; one holds a point of K, which
- * was rounded by less than 1.5. */
-int32_t cage_overlap_pieces(struct cage_arena *arena, struct cage_overlap *o)
+/* Of d's simplices one in so many is searched for, one after the other; where more meet K's bounds, all are looked at instead. */
+enum { SEARCHED = 128 };
+
+/* The simplices of d that K's bounds meet, at *out: they hang together by facets, and one of them holds a point of K, which was
+ * rounded by less than 1.5. Returns how many; 0: there may be many; or an error. */
+static int32_t find_around(struct cage_arena *arena, const struct cage_overlap *o, uint32_t *code, int32_t **out)
 {
     const struct cage_triangulation *t = &o->d->t;
     const struct cage_region *region = &o->c->region[o->k];
     struct cage_bounds around = region->bounds;
     uint8_t *seen = cage_arena_take(arena, (size_t)t->simplices, sizeof *seen);
-    int32_t *queue = cage_arena_take(arena, (size_t)t->simplices, sizeof *queue), length = 0, error = CAGE_OK;
-    uint32_t *code = no_codes(arena, t);
-    if (!seen || !queue || !code)
+    int32_t *queue = cage_arena_take(arena, (size_t)t->simplices, sizeof *queue), length = 0;
+    if (!seen || !queue)
         return CAGE_ERROR_MEMORY;
     memset(seen, AWAY, (size_t)t->simplices);
-    cage_bounds_none(&o->bounds);
     cage_bounds_widen(t->dim, &around, 4); /* along x + y + z: 1.5 root(3) */
-    queue[length++] = cage_delaunay_locate(t, find_orthoball(o->c, region->deep)->at, 0);
+    queue[length++] = cage_delaunay_locate(t, o->c->orthoball[region->first].at, 0);
     seen[queue[0]] = VISITED;
-    size_t mark = arena->used;
-    for (int32_t n = 0; n < length && error == CAGE_OK; n++) {
-        int32_t s = queue[n];
-        if (o->d->label[s] == o->l)
-            error = add_piece(arena, mark, o, s);
+    for (int32_t n = 0; n < length; n++)
         for (int32_t i = 0; i <= t->dim; i++) {
-            int32_t twin = t->simplex[s].twin[i], next = twin >> 2;
+            int32_t twin = t->simplex[queue[n]].twin[i], next = twin >> 2;
             if (twin == CAGE_HULL || seen[next] == VISITED)
                 continue;
             seen[next] = VISITED;
-            if (!is_out(t, next, &around, code))
-                queue[length++] = next;
+            if (is_out(t, next, &around, code))
+                continue;
+            if (length > t->simplices / SEARCHED)
+                return 0;
+            queue[length++] = next;
         }
+    *out = queue;
+    return length;
+}
+
+/* If the piece of the outside in simplex s may meet K, it is added. */
+static int32_t add_outer(struct cage_arena *arena, size_t mark, struct cage_overlap *o, int32_t s)
+{
+    struct cage_orthoball ball;
+    if (o->d->label[s] != CAGE_OUTSIDE)
+        return CAGE_OK;
+    cage_orthoball_of(&o->d->t, s, &ball);
+    return add_piece(arena, mark, o, &ball);
+}
+
+static int32_t find_outer_pieces(struct cage_arena *arena, struct cage_overlap *o, uint32_t *code)
+{
+    const struct cage_triangulation *t = &o->d->t;
+    int32_t *list = NULL, count = find_around(arena, o, code, &list), error = count < 0 ? count : CAGE_OK;
+    size_t mark = arena->used;
+    for (int32_t n = 0; n < count && error == CAGE_OK; n++)
+        error = add_outer(arena, mark, o, list[n]);
+    if (count != 0)
+        return error;
+    for (int32_t i = 0; i < t->sites; i++)
+        code[i] = cage_bounds_code(t->dim, &o->c->region[o->k].bounds, &t->site[i]);
+    for (int32_t s = 0; s < t->simplices && error == CAGE_OK; s++) {
+        const int32_t *v = t->simplex[s].v;
+        uint32_t common = code[v[0]] & code[v[1]] & code[v[2]] & (t->dim == 3 ? code[v[3]] : UINT32_MAX);
+        if (common == CAGE_CODE_KNOWN)
+            error = add_outer(arena, mark, o, s);
     }
+    return error;
+}
+
+int32_t cage_overlap_pieces(struct cage_arena *arena, struct cage_overlap *o)
+{
+    const struct cage_slice *d = o->d;
+    const struct cage_region *from = &o->c->region[o->k], *to = &d->region[o->l];
+    uint32_t *code = no_codes(arena, &d->t);
+    int32_t error = code ? CAGE_OK : CAGE_ERROR_MEMORY;
+    cage_bounds_none(&o->bounds);
+    if (error == CAGE_OK && o->l == CAGE_OUTSIDE)
+        return find_outer_pieces(arena, o, code);
+    size_t mark = arena->used;
+    for (int32_t i = to->first; i < to->first + to->size && error == CAGE_OK; i++)
+        if (!is_away(d->t.dim, &from->bounds, &d->orthoball[i]) &&
+            !is_out(&d->t, d->orthoball[i].simplex, &from->bounds, code))
+            error = add_piece(arena, mark, o, &d->orthoball[i]);
     return error;
 }
 
@@ -161,17 +201,17 @@ static bool find_box(struct cage_overlap *o, struct cage_piece *own, struct cage
 int32_t cage_overlap_boxes(struct cage_arena *arena, struct cage_overlap *o)
 {
     const struct cage_slice *c = o->c;
+    const struct cage_region *of = &c->region[o->k];
     uint32_t *code = no_codes(arena, &c->t);
     if (!code)
         return CAGE_ERROR_MEMORY;
     o->box = cage_arena_take(arena, CAGE_OVERLAP_BOXES, sizeof *o->box);
     if (!o->box)
         return CAGE_ERROR_MEMORY;
-    for (int32_t i = 0; i < c->orthoballs; i++) {
+    for (int32_t i = of->first; i < of->first + of->size; i++) {
         struct cage_piece own;
         struct cage_box box;
-        int32_t s = c->orthoball[i].simplex;
-        if (c->label[s] != o->k || is_out(&c->t, s, &o->bounds, code))
+        if (is_away(c->t.dim, &o->bounds, &c->orthoball[i]) || is_out(&c->t, c->orthoball[i].simplex, &o->bounds, code))
             continue;
         cage_piece_make(&c->t, &c->orthoball[i], &own);
         if (!cage_bounds_meet(c->t.dim, &o->bounds, &own.bounds) || !find_box(o, &own, &box))

@@ -100,18 +100,22 @@ static int32_t find_orthoballs(struct cage_arena *arena, struct cage_slice *slic
     slice->orthoballs = 0;
     for (int32_t k = 0; k < slice->regions; k++) {
         cage_bounds_none(&slice->region[k].bounds);
+        slice->region[k].first = slice->orthoballs;
         slice->orthoballs += k == CAGE_OUTSIDE ? 0 : slice->region[k].size;
+        slice->region[k].size = k == CAGE_OUTSIDE ? slice->region[k].size : 0;
     }
     slice->orthoball = cage_arena_take(arena, (size_t)slice->orthoballs, sizeof *slice->orthoball);
     if (!slice->orthoball)
         return CAGE_ERROR_MEMORY;
-    for (int32_t s = 0, i = 0; s < slice->t.simplices; s++) {
+    for (int32_t s = 0; s < slice->t.simplices; s++) {
         struct cage_bounds bounds;
         if (slice->label[s] <= CAGE_OUTSIDE)
             continue;
-        cage_orthoball_of(&slice->t, s, &slice->orthoball[i]);
-        cage_bounds_of(&slice->t, &slice->orthoball[i++], &bounds);
-        cage_bounds_add(slice->t.dim, &slice->region[slice->label[s]].bounds, &bounds);
+        struct cage_region *region = &slice->region[slice->label[s]];
+        struct cage_orthoball *ball = &slice->orthoball[region->first + region->size++];
+        cage_orthoball_of(&slice->t, s, ball);
+        cage_bounds_of(&slice->t, ball, &bounds);
+        cage_bounds_add(slice->t.dim, &region->bounds, &bounds);
     }
     return CAGE_OK;
 }

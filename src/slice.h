@@ -25,6 +25,7 @@ struct cage_part {
 struct cage_region {
     int32_t deep;
     int32_t size;
+    int32_t first; /* of its orthoballs; the outside has none */
     int32_t known;
     int32_t point[3];
     struct cage_bounds bounds;
@@ -36,7 +37,7 @@ struct cage_slice {
     int32_t *label;              /* of each simplex: CAGE_COVERED, CAGE_OUTSIDE, 1.. */
     struct cage_part *part;
     struct cage_region *region;
-    struct cage_orthoball *orthoball; /* of each simplex of a bounded component, in their order */
+    struct cage_orthoball *orthoball; /* of each simplex of the bounded components, one component after the other */
     int32_t orthoballs;
     int32_t regions;
     int32_t parts;

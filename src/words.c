@@ -9,17 +9,22 @@ void cage_words_put_at(struct cage_pen *pen, uint32_t word, uint32_t value)
 
 void cage_words_put(struct cage_pen *pen, uint32_t value) { cage_words_put_at(pen, pen->words++, value); }
 
+/* What each half of a byte adds to the sum. */
+static const uint64_t LOW[16] = {
+    0x0000000000000000, 0xb32e4cbe03a75f6f, 0xf4843657a840a05b, 0x47aa7ae9abe7ff34, 0x7bd0c384ff8f5e33, 0xc8fe8f3afc28015c,
+    0x8f54f5d357cffe68, 0x3c7ab96d5468a107, 0xf7a18709ff1ebc66, 0x448fcbb7fcb9e309, 0x0325b15e575e1c3d, 0xb00bfde054f94352,
+    0x8c71448d0091e255, 0x3f5f08330336bd3a, 0x78f572daa8d1420e, 0xcbdb3e64ab761d61};
+static const uint64_t HIGH[16] = {
+    0x0000000000000000, 0x7d9ba13851336649, 0xfb374270a266cc92, 0x86ace348f355aadb, 0x64b62bcaebc387a1, 0x192d8af2baf0e1e8,
+    0x9f8169ba49a54b33, 0xe21ac88218962d7a, 0xc96c5795d7870f42, 0xb4f7f6ad86b4690b, 0x325b15e575e1c3d0, 0x4fc0b4dd24d2a599,
+    0xadda7c5f3c4488e3, 0xd041dd676d77eeaa, 0x56ed3e2f9e224471, 0x2b769f17cf112238};
+
 uint64_t cage_words_sum(uint64_t sum, const unsigned char *byte, size_t count)
 {
-    static const uint64_t nibble[16] = {
-        0x0000000000000000, 0x7d9ba13851336649, 0xfb374270a266cc92, 0x86ace348f355aadb, 0x64b62bcaebc387a1, 0x192d8af2baf0e1e8,
-        0x9f8169ba49a54b33, 0xe21ac88218962d7a, 0xc96c5795d7870f42, 0xb4f7f6ad86b4690b, 0x325b15e575e1c3d0, 0x4fc0b4dd24d2a599,
-        0xadda7c5f3c4488e3, 0xd041dd676d77eeaa, 0x56ed3e2f9e224471, 0x2b769f17cf112238};
     sum = ~sum;
     for (size_t i = 0; i < count; i++) {
-        sum ^= byte[i];
-        sum = nibble[sum & 15] ^ sum >> 4;
-        sum = nibble[sum & 15] ^ sum >> 4;
+        uint32_t next = (uint32_t)(sum ^ byte[i]) & 255;
+        sum = sum >> 8 ^ LOW[next & 15] ^ HIGH[next >> 4];
     }
     return ~sum;
 }

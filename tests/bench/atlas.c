@@ -6,7 +6,7 @@
 #include "bench.h"
 #include "sets.h"
 
-enum { POSES = 4096, ROUNDS = 16, MOST_PAIRS = 16384 };
+enum { POSES = 4096, ROUNDS = 16, MOST_PAIRS = 16384, TIMES = 5 };
 
 /* Seconds to triangulate all collision balls of all cells of that level, on these sides. */
 static double triangulations(unsigned char *block, const cage_scene *scene, int32_t level, int32_t sides, int64_t *balls)
@@ -90,31 +90,56 @@ static double ask(const cage_scene *scene, const cage_atlas *atlas, int32_t deci
     return (bench_now() - start) / (POSES * ROUNDS) * 1e6;
 }
 
-static void print_scene(unsigned char *block, const char *name, const cage_scene *scene, int32_t level, int32_t sides)
+/* The atlas, made in the block and written to bytes; how long that took. */
+static double make_atlas(unsigned char *block, const cage_scene *scene, int32_t level, int32_t sides, unsigned char *bytes, size_t room,
+                         cage_survey_result *result)
 {
     cage_plan plan;
     cage_survey *survey;
-    cage_atlas atlas;
-    int64_t balls;
-    int32_t decided[2] = {0, 0};
-    double alone = triangulations(block, scene, level, sides, &balls);
     cage_plan_default(&plan);
     plan.level = level;
     plan.side = sides;
     double start = bench_now();
     if (cage_survey_begin(&survey, scene, &plan, block, BENCH_ROOM) != CAGE_OK || cage_survey_run(survey, INT64_MAX) != 1)
         bench_die("the survey failed");
-    const cage_survey_result work = *cage_survey_result_of(survey);
-    static unsigned char bytes[128 << 20];
-    if (work.atlas_bytes > sizeof bytes || !cage_survey_atlas(survey, bytes, sizeof bytes))
+    *result = *cage_survey_result_of(survey);
+    if (result->atlas_bytes > room || !cage_survey_atlas(survey, bytes, room))
         bench_die("the atlas is too large");
-    double seconds = bench_now() - start;
+    return bench_now() - start;
+}
+
+static double median(double value[TIMES])
+{
+    for (int32_t i = 1; i < TIMES; i++)
+        for (int32_t j = i; j > 0 && value[j] < value[j - 1]; j--) {
+            double swap = value[j];
+            value[j] = value[j - 1];
+            value[j - 1] = swap;
+        }
+    return value[TIMES / 2];
+}
+
+/* Medians, of seconds and of their ratios, as either is measured in turn. */
+static void print_scene(unsigned char *block, const char *name, const cage_scene *scene, int32_t level, int32_t sides)
+{
+    static unsigned char bytes[128 << 20];
+    double alone[TIMES], seconds[TIMES], ratio[TIMES];
+    cage_survey_result work;
+    cage_atlas atlas;
+    int64_t balls;
+    int32_t decided[2] = {0, 0};
+    for (int32_t i = 0; i < TIMES; i++) {
+        alone[i] = triangulations(block, scene, level, sides, &balls);
+        seconds[i] = make_atlas(block, scene, level, sides, bytes, sizeof bytes, &work);
+        ratio[i] = seconds[i] / alone[i];
+    }
     if (cage_atlas_open(&atlas, bytes, (size_t)work.atlas_bytes) != CAGE_OK)
         bench_die("cage_atlas_open failed");
     double micro = ask(scene, &atlas, decided);
     printf("  %-22s %5d %6d %8lld %8.3f %8.3f %6.2f %8.0f %7.2f %7.2f %7.1f%% %7.1f%%\n", name, sides, work.leaves, (long long)balls,
-           alone, seconds, seconds / alone, (double)work.atlas_bytes / 1024, (double)work.atlas_bytes / (double)balls, micro,
-           100.0 * decided[0] / (POSES * ROUNDS), 100.0 * decided[1] / (POSES * ROUNDS));
+           median(alone), median(seconds), median(ratio), (double)work.atlas_bytes / 1024,
+           (double)work.atlas_bytes / (double)balls, micro, 100.0 * decided[0] / (POSES * ROUNDS),
+           100.0 * decided[1] / (POSES * ROUNDS));
     fflush(stdout);
 }
 
@@ -125,7 +150,8 @@ void bench_atlas_print(void *block)
     const int32_t sizes[2][2] = {{60, 5}, {100, 20}};
     struct cage_arena arena;
     cage_scene fence;
-    printf("\natlas: seconds to triangulate all collision balls of all slices, and to make the atlas; its size; a question\n");
+    printf("\natlas: seconds to triangulate all collision balls of all slices, and to make the atlas, medians of %d times in turn;\n"
+           "its size; a question\n", TIMES);
     printf("  %-22s %5s %6s %8s %8s %8s %6s %8s %7s %7s %8s %8s\n", "scene", "sides", "slices", "balls", "triang.", "atlas", "ratio",
            "KiB", "B/ball", "us", "decided", "collide");
     bench_fence_make(&fence);
