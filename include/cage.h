@@ -181,6 +181,10 @@ int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage
  * depend on how the steps are portioned. */
 int32_t cage_prove_run(cage_proof *proof, int64_t steps);
 
+/* The same for a proof that was begun with limits of CAGE_SIDE_INNER (else CAGE_ERROR_ARGUMENT): every byte of the result is the
+ * same. An image that calls this one instead carries nothing that looks for paths, a quarter of the code. */
+int32_t cage_prove_run_inner(cage_proof *proof, int64_t steps);
+
 /* Several cores for one proof. run calls task(data, i, w) once for each i in 0..tasks - 1, in any order, all at once
  * if it can; w is 0 to count - 1, and no two calls at the same time have the same w. It returns when all have. */
 typedef struct cage_workers {

@@ -184,3 +184,26 @@ const struct cage_unit *cage_ahead_find(struct cage_ahead *ahead, const struct c
     ahead->missed++;
     return NULL;
 }
+
+int32_t cage_prove_run_with(cage_proof *proof, int64_t steps, const cage_workers *workers)
+{
+    if (!proof || !cage_workers_are_valid(workers))
+        return CAGE_ERROR_ARGUMENT;
+    struct cage_ahead *ahead = workers ? cage_ahead_make(workers) : NULL;
+    struct cage_proof *second = proof->second;
+    if (!ahead)
+        return cage_prove_run(proof, steps);
+    proof->ahead = ahead;
+    if (second)
+        second->ahead = ahead;
+    int32_t state = cage_prove_run(proof, 0);
+    for (; steps > 0 && state == 0; steps--) {
+        if (cage_ahead_is_due(ahead))
+            cage_ahead_work(ahead, proof, workers);
+        state = cage_prove_run(proof, 1);
+    }
+    proof->ahead = NULL;
+    if (second)
+        second->ahead = NULL;
+    return state;
+}

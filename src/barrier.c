@@ -33,8 +33,8 @@ struct cage_mover {
 
 enum { NO_POINT = -1, UNKNOWN_HOME = -2 };
 
-/* Balls move far if by more than 6 tenths of a radius: |by|^2 / 4 > 9 r^2 / 100. */
-enum { FAR = 9 };
+/* Balls move far if by more than 6 tenths of a radius: |by|^2 / 4 > 9 r^2 / 100; both below 2^59, in units of 2^8 here. */
+static bool moves_far(int64_t sag, int64_t radius) { return 100 * (sag >> 8) > 9 * (radius * radius >> 8); }
 
 /* A component of so few simplices is small; its spread ends, undecided, when it is so long. */
 enum { SMALL = 32, LONG = 256 };
@@ -83,7 +83,7 @@ int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, con
         radius = c->t.site[i].r > radius ? c->t.site[i].r : radius;
         made.mover[i] = mover_of(&c->t.site[i], &move[c->t.ball[i]]);
     }
-    made.far = longest / FAR > radius * radius / 100;
+    made.far = moves_far(longest, radius);
     memset(made.reached, 0, (size_t)c->t.simplices * sizeof *made.reached);
     memset(made.solid, -1, (size_t)c->t.simplices * sizeof *made.solid);
     for (int32_t l = 0; l < d->regions; l++) {

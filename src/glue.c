@@ -81,7 +81,7 @@ static void add_all(struct group *group)
             for (int32_t k = 0; k < slice->regions; k++)
                 sum += slice->region[k].size;
             for (int32_t k = 0; k < slice->regions; k++)
-                if (k != CAGE_OUTSIDE && large == (slice->region[k].size > sum / slice->regions))
+                if (k != CAGE_OUTSIDE && large == ((int64_t)slice->region[k].size * slice->regions > sum))
                     add_member(group, side, k);
         }
     add_member(group, 0, CAGE_OUTSIDE);

@@ -89,8 +89,9 @@ void cage_bounds_of(const struct cage_triangulation *t, const struct cage_orthob
     }
     if (ball->radius < 0)
         return;
-    int64_t radius = ball->radius, by[4] = {0, radius, radius * 99 / 70 + 1, radius * 97 / 56 + 1};
-    read_along(ball->at[0], ball->at[1], ball->at[2], along); /* by[n]: at least the root of n times the radius */
+    /* by[n]: at least the root of n times the radius, 46341 > 2^15 root(2), 56756 > 2^15 root(3); < 2^46 */
+    int64_t radius = ball->radius, by[4] = {0, radius, (radius * 46341 >> 15) + 1, (radius * 56756 >> 15) + 1};
+    read_along(ball->at[0], ball->at[1], ball->at[2], along);
     for (int32_t i = 0; i < directions(t->dim); i++) {
         int64_t low = along[i] - by[SQUARE[i]], high = along[i] + by[SQUARE[i]];
         out->low[i] = low > out->low[i] ? (int32_t)low : out->low[i];

@@ -1,6 +1,9 @@
 /* predicate: the only file that answers a geometric question: formula, bound, tie rule. */
 #include "predicate.h"
 
+extern inline cage_i128 cage_mix(int64_t m1, int64_t z1, int64_t m2, int64_t z2, int64_t m3, int64_t z3);
+extern inline void cage_difference(const struct cage_site *a, const struct cage_site *b, int32_t out[3]);
+
 const int32_t CAGE_FACE_2D[3][2] = {{1, 2}, {2, 0}, {0, 1}};
 const int32_t CAGE_FACE_3D[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
 

@@ -40,7 +40,7 @@ static CAGE_INLINE cage_i128 cage_triple(const int32_t a[3], const int32_t b[3],
 }
 
 /* m_1 z_1 - m_2 z_2 + m_3 z_3: a 3 x 3 determinant from its minors */
-static CAGE_INLINE cage_i128 cage_mix(int64_t m1, int64_t z1, int64_t m2, int64_t z2, int64_t m3, int64_t z3)
+CAGE_SHARED cage_i128 cage_mix(int64_t m1, int64_t z1, int64_t m2, int64_t z2, int64_t m3, int64_t z3)
 {
     cage_i128 sum = cage_i128_mul(m1, z1);
     cage_i128_add_product(&sum, m2, -z2);
@@ -49,7 +49,7 @@ static CAGE_INLINE cage_i128 cage_mix(int64_t m1, int64_t z1, int64_t m2, int64_
 }
 
 /* Entries <= 2M. */
-static CAGE_INLINE void cage_difference(const struct cage_site *a, const struct cage_site *b, int32_t out[3])
+CAGE_SHARED void cage_difference(const struct cage_site *a, const struct cage_site *b, int32_t out[3])
 {
     out[0] = a->x - b->x;
     out[1] = a->y - b->y;

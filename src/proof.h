@@ -39,6 +39,7 @@ struct cage_proof {
     int32_t corridor;           /* cells with this number may be explored on the outer side; 0: all may */
     int32_t corridors;
     int64_t outer_steps;        /* taken by the outer side */
+    bool outer_lost;            /* the outer side has no place to begin at: as if it were not asked for */
     int32_t outer_work;         /* slices and gluings of the outer side when the corridor was chosen */
     int32_t origin;             /* the cell the search begins at: CAGE_CELL_START or CAGE_CELL_GOAL */
     int32_t hopeless;           /* a way was banned: no inner proof any more; the reason then */
@@ -63,8 +64,37 @@ int32_t cage_proof_begin_all(struct cage_proof **proof, const cage_scene *scene,
 /* The side that it searches now, or -1. */
 int32_t cage_proof_searching(const struct cage_proof *proof);
 
+/* What comes next: prove.c takes the steps before CAGE_PHASE_OUTER, outer.c the others. */
+enum {
+    CAGE_PHASE_START = 0,
+    CAGE_PHASE_INNER,
+    CAGE_PHASE_REFINE,
+    CAGE_PHASE_OUTER,
+    CAGE_PHASE_PATH,
+    CAGE_PHASE_SHORTEN,
+    CAGE_PHASE_DONE
+};
+
 /* One step of this search alone. */
 int32_t cage_proof_step(struct cage_proof *proof);
+
+/* One of prove.c; CAGE_ERROR_MEMORY: it may be taken again when there is room for it. */
+int32_t cage_proof_step_inner(struct cage_proof *proof);
+
+/* The search begins where less can be seen; the ends are located on that side. */
+void cage_proof_choose_origin(struct cage_proof *proof, int32_t side);
+
+/* The inner side can do no more: outer searches over all cells, cut evenly where they have come. */
+void cage_proof_last_resort(struct cage_proof *proof, int32_t reason);
+
+/* After some steps: the result so far, and what is told of it. */
+int32_t cage_proof_report(struct cage_proof *proof);
+
+/* Is there an outer side to search? */
+static inline bool cage_proof_has_outer(const struct cage_proof *proof)
+{
+    return (proof->limits.side & CAGE_SIDE_OUTER) && !proof->outer_lost;
+}
 
 int32_t cage_proof_finish(struct cage_proof *proof, int32_t verdict, int32_t reason);
 
@@ -97,6 +127,7 @@ int32_t cage_proof_slices(struct cage_proof *proof, int32_t side, int32_t a, int
  * there is nothing left to do. */
 enum { CAGE_WORKED = 0, CAGE_FOUND = 1, CAGE_CLOSED = 2 };
 
+/* After the ends were located. */
 int32_t cage_search(struct cage_proof *proof, int32_t side);
 
 /* The slice of a cell, made in the arena. */
@@ -106,8 +137,8 @@ int32_t cage_search_make(const struct cage_proof *proof, struct cage_arena *aren
 /* The next neighbour after `after` (-1: the first) of the node's cell that it is not glued with; -1: no more. */
 int32_t cage_search_unglued(const struct cage_proof *proof, int32_t side, const struct cage_node *node, int32_t after);
 
-/* Build the slices of start and goal and locate them: CAGE_FOUND when both are. */
-int32_t cage_search_ends(struct cage_proof *proof, int32_t side);
+/* Build the slice of start or goal on that side and locate it there: *end, *slice. CAGE_FOUND: both were before. */
+int32_t cage_search_ends(struct cage_proof *proof, int32_t side, int32_t *end, const struct cage_slice **slice);
 
 /* Forget what was reached; facts stay. */
 void cage_search_anew(struct cage_proof *proof, int32_t side);

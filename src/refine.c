@@ -31,7 +31,7 @@ int32_t cage_refine_choose(const struct cage_proof *proof, struct cage_node *tar
     for (struct cage_node *node = target; node; node = node->from) {
         if (coarser(proof, node->cell, coarsest))
             coarsest = node->cell;
-        if ((proof->limits.side & CAGE_SIDE_OUTER) && node != target && outer_reached(proof, node))
+        if (cage_proof_has_outer(proof) && node != target && outer_reached(proof, node))
             continue;
         *stop = node;
         beyond = coarsest;

@@ -62,39 +62,21 @@ static bool answered(const struct cage_proof *proof)
     return cage_proof_is_done(proof) || (proof->second && proof->second->result.path);
 }
 
-static int32_t run(cage_proof *proof, int64_t steps, struct cage_ahead *ahead, const cage_workers *workers)
+int32_t cage_proof_report(struct cage_proof *proof)
 {
-    int32_t error = proof->error;
-    for (; steps > 0 && !answered(proof) && error == CAGE_OK; steps--) {
-        if (ahead && cage_ahead_is_due(ahead))
-            cage_ahead_work(ahead, proof, workers);
-        error = cage_proof_step(next_search(proof));
-    }
-    return error;
-}
-
-int32_t cage_prove_run(cage_proof *proof, int64_t steps)
-{
-    return cage_prove_run_with(proof, steps, NULL);
-}
-
-int32_t cage_prove_run_with(cage_proof *proof, int64_t steps, const cage_workers *workers)
-{
-    if (!proof || !cage_workers_are_valid(workers))
-        return CAGE_ERROR_ARGUMENT;
-    struct cage_ahead *ahead = workers ? cage_ahead_make(workers) : NULL;
-    struct cage_proof *second = proof->second;
-    proof->ahead = ahead;
-    if (second)
-        second->ahead = ahead;
-    proof->error = run(proof, steps, ahead, workers);
-    proof->ahead = NULL;
-    if (second)
-        second->ahead = NULL;
     cage_proof_total(proof);
     if (proof->error == CAGE_ERROR_MEMORY)
         proof->total.needed_bytes = cage_proof_needed(proof);
     return proof->error != CAGE_OK ? proof->error : answered(proof);
+}
+
+int32_t cage_prove_run(cage_proof *proof, int64_t steps)
+{
+    if (!proof)
+        return CAGE_ERROR_ARGUMENT;
+    for (; steps > 0 && !answered(proof) && proof->error == CAGE_OK; steps--)
+        proof->error = cage_proof_step(next_search(proof));
+    return cage_proof_report(proof);
 }
 
 const cage_result *cage_prove_result(const cage_proof *proof)

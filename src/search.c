@@ -1,5 +1,4 @@
 /* search: breadth first over the components of one side, building and gluing slices where it comes. */
-#include "certify.h"
 #include "grid.h"
 #include "proof.h"
 
@@ -268,39 +267,13 @@ static void follow_again(struct cage_proof *proof, int32_t side, int32_t cell)
             enqueue(&proof->reach[side], &facts->node[k]);
 }
 
-/* The outer side needs some clearance: where start or goal has none, look for a free leg to a place that has. */
-static void locate_end(struct cage_proof *proof, const struct cage_slice *slice, int32_t side, int32_t end)
+int32_t cage_search_ends(struct cage_proof *proof, int32_t side, int32_t *end, const struct cage_slice **slice)
 {
-    const int32_t *at = proof->at[end], *q = proof->graph.cell[end].rotations.q;
-    int32_t reach = proof->scene.dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
-    int32_t *label = &proof->label[side][end];
-    *label = cage_slice_locate(slice, at);
-    for (int32_t k = 0; k < 3; k++)
-        proof->outer_at[end][k] = side == CAGE_OUTER ? at[k] : proof->outer_at[end][k];
-    for (int32_t size = 16; side == CAGE_OUTER && *label == CAGE_COVERED && size < reach / 4; size *= 4)
-        for (int32_t i = 0; i < 27 && *label == CAGE_COVERED; i++) {
-            const int32_t toward[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-            const int32_t to[3] = {at[0] + size * toward[0], at[1] + size * toward[1], at[2] + size * toward[2]};
-            bool inside = proof->scene.dim == 3 || toward[2] == 0;
-            for (int32_t k = 0; k < 3; k++)
-                inside = inside && to[k] >= -reach && to[k] <= reach;
-            int32_t there = inside ? cage_slice_locate(slice, to) : CAGE_COVERED;
-            if (there == CAGE_COVERED || !cage_certify_leg(&proof->scene, proof->result.pivot, q, at, to, 0))
-                continue;
-            *label = there;
-            for (int32_t k = 0; k < 3; k++)
-                proof->outer_at[end][k] = to[k];
-        }
-}
-
-int32_t cage_search_ends(struct cage_proof *proof, int32_t side)
-{
-    for (int32_t end = CAGE_CELL_START; end <= (proof->graph.goal ? CAGE_CELL_GOAL : CAGE_CELL_START); end++)
-        if (proof->graph.cell[end].facts[side].nodes == 0) {
-            const struct cage_slice *slice;
-            int32_t error = cage_proof_slice(proof, side, end, &slice);
+    for (*end = CAGE_CELL_START; *end <= (proof->graph.goal ? CAGE_CELL_GOAL : CAGE_CELL_START); ++*end)
+        if (proof->graph.cell[*end].facts[side].nodes == 0) {
+            int32_t error = cage_proof_slice(proof, side, *end, slice);
             if (error == CAGE_OK)
-                locate_end(proof, slice, side, end);
+                proof->label[side][*end] = cage_slice_locate(*slice, proof->at[*end]);
             return error;
         }
     return CAGE_FOUND;
@@ -309,9 +282,6 @@ int32_t cage_search_ends(struct cage_proof *proof, int32_t side)
 int32_t cage_search(struct cage_proof *proof, int32_t side)
 {
     struct cage_reach *reach = &proof->reach[side];
-    int32_t ends = cage_search_ends(proof, side);
-    if (ends != CAGE_FOUND)
-        return ends;
     if (!reach->start) {
         for (int32_t end = 0; end <= (proof->graph.goal ? 1 : 0); end++)
             if (proof->label[side][end] == CAGE_COVERED)

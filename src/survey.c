@@ -398,7 +398,30 @@ void cage_survey_sum_up(struct cage_survey *survey)
     result->atlas_bytes = survey->done ? cage_survey_atlas(survey, NULL, 0) : 0;
 }
 
-int32_t cage_survey_run(cage_survey *survey, int64_t steps) { return cage_survey_run_with(survey, steps, NULL); }
+/* False: there is no step to take. */
+static bool advance(struct cage_survey *survey)
+{
+    if (survey->proof->error != CAGE_OK || is_finished(survey))
+        return false;
+    survey->proof->error = step(survey);
+    survey->result.steps++;
+    return true;
+}
+
+static int32_t report(struct cage_survey *survey)
+{
+    cage_survey_sum_up(survey);
+    return survey->proof->error != CAGE_OK ? survey->proof->error : is_finished(survey);
+}
+
+int32_t cage_survey_run(cage_survey *survey, int64_t steps)
+{
+    if (!survey)
+        return CAGE_ERROR_ARGUMENT;
+    while (steps > 0 && advance(survey))
+        steps--;
+    return report(survey);
+}
 
 int32_t cage_survey_run_with(cage_survey *survey, int64_t steps, const cage_workers *workers)
 {
@@ -406,15 +429,13 @@ int32_t cage_survey_run_with(cage_survey *survey, int64_t steps, const cage_work
         return CAGE_ERROR_ARGUMENT;
     struct cage_proof *proof = survey->proof;
     proof->ahead = workers ? cage_ahead_make(workers) : NULL;
-    for (; steps > 0 && !is_finished(survey) && proof->error == CAGE_OK; steps--) {
+    for (bool more = true; steps > 0 && more; steps--) {
         if (proof->ahead && survey->cell >= 0 && cage_ahead_is_due(proof->ahead))
             look_ahead(survey, workers);
-        proof->error = step(survey);
-        survey->result.steps++;
+        more = advance(survey);
     }
     proof->ahead = NULL;
-    cage_survey_sum_up(survey);
-    return survey->proof->error != CAGE_OK ? survey->proof->error : is_finished(survey);
+    return report(survey);
 }
 
 const cage_survey_result *cage_survey_result_of(const cage_survey *survey)

@@ -1,22 +1,38 @@
 /* wide: 128- and 256-bit signed integers, without needing a 128-bit compiler type. */
 #include "wide.h"
 
-/* The quotient's bits come in from below as those of a that are not in the rest yet go out above. */
+extern inline uint32_t cage_u64_bits(uint64_t a);
+extern inline cage_i128 cage_i128_make(uint64_t high, uint64_t low);
+extern inline uint64_t cage_i128_low(cage_i128 a);
+extern inline uint64_t cage_i128_high(cage_i128 a);
+extern inline cage_i128 cage_i128_mul(int64_t a, int64_t b);
+extern inline cage_i128 cage_u64_mul(uint64_t a, uint64_t b);
+extern inline cage_i128 cage_i128_add(cage_i128 a, cage_i128 b);
+extern inline cage_i128 cage_i128_sub(cage_i128 a, cage_i128 b);
+extern inline cage_i128 cage_i128_scale(cage_i128 a, int64_t b);
+extern inline cage_i128 cage_i128_shr(cage_i128 a, uint32_t bits);
+extern inline cage_i128 cage_i128_shl(cage_i128 a, uint32_t bits);
+extern inline cage_i128 cage_i128_of(int64_t a);
+extern inline bool cage_i128_negative(cage_i128 a);
+extern inline int32_t cage_i128_sign(cage_i128 a);
+extern inline bool cage_i128_positive(cage_i128 a);
+extern inline void cage_i128_add_product(cage_i128 *sum, int64_t a, int64_t b);
+extern inline cage_i128 cage_i128_minus(cage_i128 a);
+extern inline cage_i128 cage_i128_abs(cage_i128 a);
+extern inline int32_t cage_i128_compare(cage_i128 a, cage_i128 b);
+extern inline uint32_t cage_u128_bits(cage_i128 a);
+
+/* Bit by bit: the rest so far, twice that and the next bit of a. */
 cage_i128 cage_u128_divide_by_bits(cage_i128 a, cage_i128 b, cage_i128 *remainder)
 {
-    uint32_t of_a = cage_u128_bits(a), of_b = cage_u128_bits(b), bits = of_a < of_b ? 0 : of_a - of_b + 1;
-    cage_i128 rest = bits > 127 ? cage_i128_of(0) : cage_i128_shr(a, bits); /* < b < 2^127, so that doubling it cannot overflow */
-    cage_i128 quotient = bits == 0 ? cage_i128_of(0) : cage_i128_shl(a, 128 - bits);
-    while (bits-- > 0) {
-        uint64_t next = cage_i128_high(quotient) >> 63;
-        rest = cage_i128_add(rest, rest);
-        rest = cage_i128_make(cage_i128_high(rest), cage_i128_low(rest) | next);
-        quotient = cage_i128_add(quotient, quotient);
+    cage_i128 rest = cage_i128_of(0), quotient = rest;
+    for (uint32_t bit = cage_u128_bits(a); bit-- > 0;) {
+        uint64_t word = bit < 64 ? cage_i128_low(a) : cage_i128_high(a);
+        rest = cage_i128_add(cage_i128_add(rest, rest), cage_i128_make(0, word >> (bit & 63) & 1)); /* < 2 b < 2^128 */
         cage_i128 less = cage_i128_sub(rest, b);
-        if (!cage_i128_negative(less)) {
-            rest = less;
-            quotient = cage_i128_make(cage_i128_high(quotient), cage_i128_low(quotient) | 1);
-        }
+        uint64_t fits = !cage_i128_negative(less);
+        rest = fits ? less : rest;
+        quotient = cage_i128_add(cage_i128_add(quotient, quotient), cage_i128_make(0, fits));
     }
     *remainder = rest;
     return quotient;
@@ -25,14 +41,14 @@ cage_i128 cage_u128_divide_by_bits(cage_i128 a, cage_i128 b, cage_i128 *remainde
 int64_t cage_i128_nearest(cage_i128 a, cage_i128 b, int64_t limit)
 {
     if (cage_i128_negative(b)) {
-        a = cage_i128_sub(cage_i128_of(0), a);
-        b = cage_i128_abs(b);
+        a = cage_i128_minus(a);
+        b = cage_i128_minus(b);
     }
     bool negative = cage_i128_negative(a);
     cage_i128 rest;
     cage_i128 floor = cage_u128_divide(cage_i128_abs(a), b, &rest);
     /* Up when 2 rest > b; a half goes toward +infinity, that is up for a > 0 only. */
-    int32_t half = cage_i128_compare(cage_i128_shl(rest, 1), b);
+    int32_t half = cage_i128_compare(cage_i128_add(rest, rest), b);
     if (half > 0 || (half == 0 && !negative))
         floor = cage_i128_add(floor, cage_i128_of(1));
     if (cage_i128_compare(floor, cage_i128_of(limit)) > 0)

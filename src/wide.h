@@ -9,14 +9,18 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* CAGE_SHARED: a function of a header, compiled where it is called; or, for the least size, once for all that do not inline it: in
+ * the file that declares it extern (C99, 6.7.4; elsewhere that says nothing new). */
 #if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
 #define CAGE_INLINE inline __attribute__((always_inline))
+#define CAGE_SHARED static CAGE_INLINE
 #else
 #define CAGE_INLINE inline
+#define CAGE_SHARED inline
 #endif
 
 /* Bits of the number: 0 for 0. */
-static CAGE_INLINE uint32_t cage_u64_bits(uint64_t a)
+CAGE_SHARED uint32_t cage_u64_bits(uint64_t a)
 {
 #if defined(__GNUC__) && !defined(CAGE_LIMBS)
     return a ? 64 - (uint32_t)__builtin_clzll(a) : 0;
@@ -36,29 +40,34 @@ static CAGE_INLINE uint32_t cage_u64_bits(uint64_t a)
 __extension__ typedef __int128 cage_i128;
 __extension__ typedef unsigned __int128 cage_u128;
 
-static CAGE_INLINE cage_i128 cage_i128_make(uint64_t high, uint64_t low)
+CAGE_SHARED cage_i128 cage_i128_make(uint64_t high, uint64_t low)
 {
     return (cage_i128)(((cage_u128)high << 64) | low);
 }
-static CAGE_INLINE uint64_t cage_i128_low(cage_i128 a) { return (uint64_t)a; }
-static CAGE_INLINE uint64_t cage_i128_high(cage_i128 a) { return (uint64_t)((cage_u128)a >> 64); }
-static CAGE_INLINE cage_i128 cage_i128_mul(int64_t a, int64_t b) { return (cage_i128)a * b; }
-static CAGE_INLINE cage_i128 cage_u64_mul(uint64_t a, uint64_t b) { return (cage_i128)((cage_u128)a * b); }
-static CAGE_INLINE cage_i128 cage_i128_add(cage_i128 a, cage_i128 b)
+CAGE_SHARED uint64_t cage_i128_low(cage_i128 a) { return (uint64_t)a; }
+CAGE_SHARED uint64_t cage_i128_high(cage_i128 a) { return (uint64_t)((cage_u128)a >> 64); }
+CAGE_SHARED cage_i128 cage_i128_mul(int64_t a, int64_t b) { return (cage_i128)a * b; }
+CAGE_SHARED cage_i128 cage_u64_mul(uint64_t a, uint64_t b) { return (cage_i128)((cage_u128)a * b); }
+CAGE_SHARED cage_i128 cage_i128_add(cage_i128 a, cage_i128 b)
 {
     return (cage_i128)((cage_u128)a + (cage_u128)b);
 }
-static CAGE_INLINE cage_i128 cage_i128_sub(cage_i128 a, cage_i128 b)
+CAGE_SHARED cage_i128 cage_i128_sub(cage_i128 a, cage_i128 b)
 {
     return (cage_i128)((cage_u128)a - (cage_u128)b);
 }
-static CAGE_INLINE cage_i128 cage_i128_scale(cage_i128 a, int64_t b)
+/* *sum += a b */
+CAGE_SHARED void cage_i128_add_product(cage_i128 *sum, int64_t a, int64_t b)
+{
+    *sum = cage_i128_add(*sum, cage_i128_mul(a, b));
+}
+CAGE_SHARED cage_i128 cage_i128_scale(cage_i128 a, int64_t b)
 {
     return (cage_i128)((cage_u128)a * (cage_u128)(cage_i128)b);
 }
 /* 0 <= bits <= 127, toward zero bits shifted in */
-static CAGE_INLINE cage_i128 cage_i128_shr(cage_i128 a, uint32_t bits) { return (cage_i128)((cage_u128)a >> bits); }
-static CAGE_INLINE cage_i128 cage_i128_shl(cage_i128 a, uint32_t bits) { return (cage_i128)((cage_u128)a << bits); }
+CAGE_SHARED cage_i128 cage_i128_shr(cage_i128 a, uint32_t bits) { return (cage_i128)((cage_u128)a >> bits); }
+CAGE_SHARED cage_i128 cage_i128_shl(cage_i128 a, uint32_t bits) { return (cage_i128)((cage_u128)a << bits); }
 static CAGE_INLINE cage_i128 cage_u128_divide(cage_i128 a, cage_i128 b, cage_i128 *remainder)
 {
     *remainder = (cage_i128)((cage_u128)a % (cage_u128)b);
@@ -71,44 +80,50 @@ typedef struct cage_i128 {
     uint64_t low, high;
 } cage_i128;
 
-static inline cage_i128 cage_i128_make(uint64_t high, uint64_t low)
+CAGE_SHARED cage_i128 cage_i128_make(uint64_t high, uint64_t low)
 {
     cage_i128 a = {low, high};
     return a;
 }
-static inline uint64_t cage_i128_low(cage_i128 a) { return a.low; }
-static inline uint64_t cage_i128_high(cage_i128 a) { return a.high; }
+CAGE_SHARED uint64_t cage_i128_low(cage_i128 a) { return a.low; }
+CAGE_SHARED uint64_t cage_i128_high(cage_i128 a) { return a.high; }
 
 /* Halves of 32 bits; the middle sum is at most 3 (2^32 - 1) + ... < 2^34, so nothing is lost. */
-static inline cage_i128 cage_u64_mul(uint64_t a, uint64_t b)
+CAGE_SHARED cage_i128 cage_u64_mul(uint64_t a, uint64_t b)
 {
     uint64_t a0 = (uint32_t)a, a1 = a >> 32, b0 = (uint32_t)b, b1 = b >> 32;
     uint64_t p00 = a0 * b0, p01 = a0 * b1, p10 = a1 * b0, p11 = a1 * b1;
     uint64_t middle = (p00 >> 32) + (uint32_t)p01 + (uint32_t)p10;
     return cage_i128_make(p11 + (p01 >> 32) + (p10 >> 32) + (middle >> 32), (middle << 32) | (uint32_t)p00);
 }
-static inline cage_i128 cage_i128_mul(int64_t a, int64_t b)
+CAGE_SHARED cage_i128 cage_i128_mul(int64_t a, int64_t b)
 {
     cage_i128 p = cage_u64_mul((uint64_t)a, (uint64_t)b);
     p.high -= (a < 0 ? (uint64_t)b : 0) + (b < 0 ? (uint64_t)a : 0);
     return p;
 }
-static inline cage_i128 cage_i128_add(cage_i128 a, cage_i128 b)
+CAGE_SHARED cage_i128 cage_i128_add(cage_i128 a, cage_i128 b)
 {
     uint64_t low = a.low + b.low;
     return cage_i128_make(a.high + b.high + (low < a.low), low);
 }
-static inline cage_i128 cage_i128_sub(cage_i128 a, cage_i128 b)
+CAGE_SHARED cage_i128 cage_i128_sub(cage_i128 a, cage_i128 b)
 {
     return cage_i128_make(a.high - b.high - (a.low < b.low), a.low - b.low);
 }
-static inline cage_i128 cage_i128_scale(cage_i128 a, int64_t b)
+CAGE_SHARED void cage_i128_add_product(cage_i128 *sum, int64_t a, int64_t b)
+{
+    cage_i128 p = cage_u64_mul((uint64_t)a, (uint64_t)b); /* not cage_i128_mul: a call less of stack */
+    p.high -= (a < 0 ? (uint64_t)b : 0) + (b < 0 ? (uint64_t)a : 0);
+    *sum = cage_i128_add(*sum, p);
+}
+CAGE_SHARED cage_i128 cage_i128_scale(cage_i128 a, int64_t b)
 {
     cage_i128 p = cage_u64_mul(a.low, (uint64_t)b);
     p.high += a.high * (uint64_t)b - (b < 0 ? a.low : 0);
     return p;
 }
-static inline cage_i128 cage_i128_shr(cage_i128 a, uint32_t bits)
+CAGE_SHARED cage_i128 cage_i128_shr(cage_i128 a, uint32_t bits)
 {
     if (bits == 0)
         return a;
@@ -116,7 +131,7 @@ static inline cage_i128 cage_i128_shr(cage_i128 a, uint32_t bits)
         return cage_i128_make(0, a.high >> (bits - 64));
     return cage_i128_make(a.high >> bits, (a.low >> bits) | (a.high << (64 - bits)));
 }
-static inline cage_i128 cage_i128_shl(cage_i128 a, uint32_t bits)
+CAGE_SHARED cage_i128 cage_i128_shl(cage_i128 a, uint32_t bits)
 {
     if (bits == 0)
         return a;
@@ -128,12 +143,12 @@ static inline cage_i128 cage_i128_shl(cage_i128 a, uint32_t bits)
 
 #endif
 
-static CAGE_INLINE cage_i128 cage_i128_of(int64_t a) { return cage_i128_make(a < 0 ? UINT64_MAX : 0, (uint64_t)a); }
+CAGE_SHARED cage_i128 cage_i128_of(int64_t a) { return cage_i128_make(a < 0 ? UINT64_MAX : 0, (uint64_t)a); }
 
-static CAGE_INLINE bool cage_i128_negative(cage_i128 a) { return cage_i128_high(a) >> 63; }
+CAGE_SHARED bool cage_i128_negative(cage_i128 a) { return cage_i128_high(a) >> 63; }
 
 /* -1, 0 or 1 */
-static CAGE_INLINE int32_t cage_i128_sign(cage_i128 a)
+CAGE_SHARED int32_t cage_i128_sign(cage_i128 a)
 {
     if (cage_i128_negative(a))
         return -1;
@@ -141,23 +156,17 @@ static CAGE_INLINE int32_t cage_i128_sign(cage_i128 a)
 }
 
 /* a > 0, for a > -2^127: without a branch, for tests whose outcome nothing could predict. */
-static CAGE_INLINE bool cage_i128_positive(cage_i128 a)
+CAGE_SHARED bool cage_i128_positive(cage_i128 a)
 {
     return cage_i128_negative(cage_i128_sub(cage_i128_make(0, 0), a));
 }
 
-/* *sum += a b */
-static CAGE_INLINE void cage_i128_add_product(cage_i128 *sum, int64_t a, int64_t b)
-{
-    *sum = cage_i128_add(*sum, cage_i128_mul(a, b));
-}
+CAGE_SHARED cage_i128 cage_i128_minus(cage_i128 a) { return cage_i128_sub(cage_i128_of(0), a); }
 
-static CAGE_INLINE cage_i128 cage_i128_minus(cage_i128 a) { return cage_i128_sub(cage_i128_of(0), a); }
-
-static CAGE_INLINE cage_i128 cage_i128_abs(cage_i128 a) { return cage_i128_negative(a) ? cage_i128_minus(a) : a; }
+CAGE_SHARED cage_i128 cage_i128_abs(cage_i128 a) { return cage_i128_negative(a) ? cage_i128_minus(a) : a; }
 
 /* The sign of a - b, whatever their size. */
-static CAGE_INLINE int32_t cage_i128_compare(cage_i128 a, cage_i128 b)
+CAGE_SHARED int32_t cage_i128_compare(cage_i128 a, cage_i128 b)
 {
     int64_t ah = (int64_t)cage_i128_high(a), bh = (int64_t)cage_i128_high(b);
     if (ah != bh)
@@ -167,7 +176,7 @@ static CAGE_INLINE int32_t cage_i128_compare(cage_i128 a, cage_i128 b)
 }
 
 /* Bits needed for the unsigned value a: 0 for 0, 128 at most. */
-static CAGE_INLINE uint32_t cage_u128_bits(cage_i128 a)
+CAGE_SHARED uint32_t cage_u128_bits(cage_i128 a)
 {
     uint64_t high = cage_i128_high(a);
     return high ? 64 + cage_u64_bits(high) : cage_u64_bits(cage_i128_low(a));

@@ -6,7 +6,8 @@
 #include "oracle.h"
 #include "oracle_space.h"
 
-int32_t referee_prove(const question *q, int64_t portion, void *memory, size_t bytes, cage_result *result)
+static int32_t prove_with(int32_t (*run)(cage_proof *proof, int64_t steps), const question *q, int64_t portion, void *memory,
+                          size_t bytes, cage_result *result)
 {
     cage_proof *proof = NULL;
     int32_t error = cage_prove_begin(&proof, q->view, q->start, q->goal, q->limits, memory, bytes);
@@ -15,10 +16,20 @@ int32_t referee_prove(const question *q, int64_t portion, void *memory, size_t b
         return error;
     }
     do {
-        error = cage_prove_run(proof, portion > 0 ? portion : INT64_MAX);
+        error = run(proof, portion > 0 ? portion : INT64_MAX);
     } while (error == 0);
     *result = *cage_prove_result(proof);
     return error == 1 ? CAGE_OK : error;
+}
+
+int32_t referee_prove(const question *q, int64_t portion, void *memory, size_t bytes, cage_result *result)
+{
+    return prove_with(cage_prove_run, q, portion, memory, bytes, result);
+}
+
+int32_t referee_prove_inner(const question *q, int64_t portion, void *memory, size_t bytes, cage_result *result)
+{
+    return prove_with(cage_prove_run_inner, q, portion, memory, bytes, result);
 }
 
 int referee_decided(int32_t verdict)

@@ -163,6 +163,11 @@ START_TEST(single_sides_agree)
             expect(&a, referee_contradiction(r.verdict, one.verdict), "one side against both");
             decided += referee_decided(one.verdict);
         }
+        cage_result inner;
+        a.limits.side = CAGE_SIDE_INNER;
+        prove(&a, 0, spare, &one);
+        ck_assert_int_eq(referee_prove_inner(&a.q, 1 + seed % 7, block, PLENTY, &inner), CAGE_OK);
+        expect(&a, referee_difference(&one, &inner, 0), "without paths");
     }
     printf("sides: both together decided %d of %d, one after the other %d\n", (int)both, (int)n, (int)decided);
 }

@@ -51,8 +51,20 @@ START_TEST(null_pointers)
     ck_assert_ptr_null(proof);
     ck_assert_int_eq(cage_prove_run(NULL, 0), CAGE_ERROR_ARGUMENT);
     ck_assert_int_eq(cage_prove_run(NULL, INT64_MAX), CAGE_ERROR_ARGUMENT);
+    ck_assert_int_eq(cage_prove_run_inner(NULL, 0), CAGE_ERROR_ARGUMENT);
     ck_assert_ptr_null(cage_prove_result(NULL));
 
+    cage_limits one_side = limits; /* a proof of both sides, or of the outer one, is not for cage_prove_run_inner, at any time */
+    for (one_side.side = CAGE_SIDE_OUTER; one_side.side <= CAGE_SIDE_BOTH; one_side.side++) {
+        ck_assert_int_eq(cage_prove_begin(&proof, &held, &origin, NULL, &one_side, memory, PLENTY), CAGE_OK);
+        int32_t state = 0;
+        for (int step = 0; state == 0; step++) {
+            ck_assert_int_eq(cage_prove_run_inner(proof, 1), CAGE_ERROR_ARGUMENT);
+            ck_assert_int_eq(cage_prove_result(proof)->steps, step);
+            state = cage_prove_run(proof, 1);
+        }
+        ck_assert_int_eq(state, 1);
+    }
     ck_assert_int_eq(cage_prove_begin(&proof, &held, &origin, NULL, NULL, memory, PLENTY), CAGE_OK);
     ck_assert_int_eq(cage_prove_run(proof, INT64_MAX), 1);
     for (int null = 1; null < 16; null++)

@@ -52,7 +52,7 @@ for name in cortex-m3 rv32; do
     echo "note: $name: deepest stack: $(deepest "$here")"
     echo "note: $name: of a question: $(deepest "$here" cage_atlas_ask)"
     # All that is in the image, the compiler's divisions and copies included; nothing else: no start-up, no C library.
-    for entry in only_ask only_query only_prove only_build prove_and_query; do
+    for entry in only_ask only_query only_cage only_prove only_build prove_and_query; do
         "${PREFIX}gcc" -std=c99 -Os $FLAGS -ffunction-sections -Iinclude tests/firmware/linked.c "$here"/*.o -nostartfiles \
             $LINK -Wl,-e,$entry -Wl,--gc-sections -o "$out/image" || exit 1
         echo "$name linked $entry $("${PREFIX}size" "$out/image" | awk 'NR == 2 { print $1 }')" >>"$out/taken"
