@@ -151,20 +151,20 @@ typedef struct cage_proof cage_proof; /* lives at the start of the caller's bloc
 
 void cage_limits_default(cage_limits *limits, int32_t dim);
 
-/* Bytes that are enough for a proof of this scene to begin, at any alignment, and as a rule to finish (if not, see
- * needed_bytes); more memory never changes an answer, it only saves building slices twice. Limits null: the default
- * ones. 0 if the scene or the limits are not valid. */
+/* Bytes that are enough for a proof of this scene to begin, at any alignment, and as a rule to finish (if not, see needed_bytes): up
+ * to twice what a usual one has in use at once. More memory never changes an answer, but saves building slices twice: on a machine
+ * that has it give four times that. Limits null: the default ones. 0 if the scene or the limits are not valid. */
 size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits);
 
-/* The same as a constant expression, for a block that is an array: never less than cage_prove_size, and at most 2.1 times that; in
- * space 3.1 times where one side alone is asked for, or max_cells is below 32. For shapes whose inner and outer counts are not
- * more than these, and limits with that many cells. */
+/* The same as a constant expression, for a block that is an array: never less than cage_prove_size, and at most 1.2 times that; in
+ * space 3.1 times where one side alone is asked for, or max_cells is below 40 (somewhat more where pointers have 32 bits). For
+ * shapes whose inner and outer counts are not more than these, and limits with that many cells. */
 #define CAGE_PROVE_BYTES(dim, objects, obstacles, max_cells)                                                              \
-    ((dim) == 2 ? CAGE_PROVE_BYTES_OF_ONE(objects, 600ul * (objects) * (obstacles), 1ul * (max_cells))                    \
-                : 3 * CAGE_PROVE_BYTES_OF_ONE(objects, 1400ul * (objects) * (obstacles), ((max_cells) + 1ul) / 2))
-#define CAGE_PROVE_BYTES_OF_ONE(objects, work, cells)                                                                     \
-    (2560 + 64ul * (objects) + 112 * (cells) +                                                                            \
-     4 * ((work) / 2 + 16384 > 32768 + 64 * (cells) ? (work) / 2 + 16384 : 32768 + 64 * (cells)))
+    ((dim) == 2 ? CAGE_PROVE_BYTES_OF_ONE(objects, 300ul * (objects) * (obstacles), 1ul * (max_cells))                    \
+                : CAGE_PROVE_BYTES_OF_TWO(CAGE_PROVE_BYTES_OF_ONE(objects, 900ul * (objects) * (obstacles), 1ul * (max_cells)), \
+                                          CAGE_PROVE_BYTES_OF_ONE(objects, 900ul * (objects) * (obstacles), (max_cells) / 8ul)))
+#define CAGE_PROVE_BYTES_OF_ONE(objects, work, cells) (43520 + 64ul * (objects) + (work) + 144 * (cells))
+#define CAGE_PROVE_BYTES_OF_TWO(first, second) ((first) > 2 * (second) ? (first) / 2 * 3 + 64 : 3 * (second) + 64)
 
 /* Ask: can the object leave the start (goal null), or get from start to goal? The scene's balls are
  * read until the proof is finished; memory (any alignment) is used until the result was read. Limits null: the default
@@ -301,16 +301,19 @@ typedef struct cage_survey cage_survey; /* lives at the start of the caller's bl
 
 void cage_plan_default(cage_plan *plan);
 
-/* Bytes that are enough for a survey to begin, at any alignment; 0 if scene or plan are not valid. To finish it takes what the
- * atlas takes (see needed_bytes), and some. */
+/* Bytes that are enough for a survey to begin, at any alignment, and often to finish (if not, see needed_bytes): up to twice what a
+ * usual one has in use at once, its atlas included. 0 if scene or plan are not valid. */
 size_t cage_survey_size(const cage_scene *scene, const cage_plan *plan);
 
-/* The same as a constant expression, for a block that is an array: never less, and at most 1.5 times that. For shapes with no more
- * balls than these on either side. max_cells: the plan's, or where that is 0 as many as there are down to its level (in the
- * plane 2, 6, 14, 30, ..., in space 4, 36, 292, ...; 2048 and 8192 for level -1). */
-#define CAGE_SURVEY_BYTES(dim, objects, obstacles, max_cells)                                                             \
-    (512 + 4 * CAGE_PROVE_BYTES_OF_ONE(objects, ((dim) == 2 ? 600ul : 1400ul) * (objects) * (obstacles), 1ul * (max_cells)) +  \
-     128 * ((max_cells) + 2ul) + 64ul * (obstacles))
+/* The same as a constant expression, for a block that is an array: never less, and at most 1.4 times that where both sides are
+ * asked for (2.2 times with max_cells in the plane; somewhat more where pointers have 32 bits). For shapes with no more balls than
+ * these on either side. slices: of one side, those of the cells of the plan's level (in the plane 2, 4, 8, ..., in space 4, 32,
+ * 256, ...), or with max_cells as many. */
+#define CAGE_SURVEY_BYTES(dim, objects, obstacles, slices)                                                                \
+    (896 + 128 * CAGE_SURVEY_CELLS(dim, slices) + 32ul * (obstacles) +                                                   \
+     CAGE_PROVE_BYTES_OF_ONE(objects, ((dim) == 2 ? 300ul : 900ul) * (objects) * (obstacles), CAGE_SURVEY_CELLS(dim, slices)) + \
+     2ul * (slices) * (((dim) == 2 ? 33ul : 26ul) * (objects) * (obstacles) + 256))
+#define CAGE_SURVEY_CELLS(dim, slices) ((dim) == 2 ? 2ul * (slices) : 1ul * (slices) + (slices) / 7ul + 1)
 
 /* The scene's balls are read until the atlas was written; memory (any alignment) is used until then. */
 int32_t cage_survey_begin(cage_survey **survey, const cage_scene *scene, const cage_plan *plan, void *memory, size_t bytes);

@@ -34,33 +34,34 @@ static int32_t limits_check(const cage_limits *limits, int32_t dim)
 /* The coarsest level at which the object's farthest ball moves by no more than half the radius of a usual
  * collision ball: in coarser cells the inner balls shrink to little, and what is left has holes everywhere. For a proof in
  * space, twice the radius: there a level too fine costs 8 times as much, and one too coarse is soon found out. */
-static int32_t first_level(const struct cage_proof *proof)
+int32_t cage_proof_first_level(const cage_scene *scene, const cage_limits *limits, bool all)
 {
-    const struct cage_side *side = &proof->side[CAGE_INNER];
-    int64_t sum = 0;
-    int32_t reach = 0, level = 0;
-    if (side->objects == 0 || side->obstacles == 0)
+    const struct cage_fibre *fibre = scene->dim == 2 ? &cage_so2 : &cage_so3;
+    const cage_shape *object = &scene->object, *obstacles = &scene->obstacles;
+    int32_t reach = 0, level = 0, pivot[3];
+    int64_t radius = 0, sum = 0;
+    if (object->inner_count == 0 || obstacles->inner_count == 0)
         return 0;
-    for (int32_t j = 0; j < side->obstacles; j++)
-        sum += side->obstacle[j].r;
-    int64_t radius = sum / side->obstacles;
-    for (int32_t a = 0; a < side->objects; a++)
-        reach = side->reach[a] > reach ? side->reach[a] : reach;
-    sum = 0;
-    for (int32_t a = 0; a < side->objects; a++)
-        sum += side->object[a].r;
-    radius += sum / side->objects;
+    cage_pivot(object, pivot);
+    for (int32_t i = 0; i < object->inner_count; i++) {
+        int32_t far = cage_reach(&object->inner[i], pivot);
+        reach = far > reach ? far : reach;
+        radius += object->inner[i].r;
+    }
+    for (int32_t j = 0; j < obstacles->inner_count; j++)
+        sum += obstacles->inner[j].r;
+    radius = radius / object->inner_count + sum / obstacles->inner_count;
     struct cage_cell cell = {0, 0, {0, 0, 0}};
-    int64_t most = proof->scene.dim == 2 || proof->all ? radius / 2 : 2 * radius;
-    while (level < proof->limits.max_level && cage_displacement(proof->graph.fibre->turn(&cell), reach) > most) {
+    int64_t most = scene->dim == 2 || all ? radius / 2 : 2 * radius;
+    while (level < limits->max_level && cage_displacement(fibre->turn(&cell), reach) > most) {
         cage_cell_child(&cell, 0, &cell);
         level++;
     }
     /* All cells down to that level: roots (1 + c + ... + c^level) < 2 roots c^level. */
-    int64_t cells = 2 * proof->graph.fibre->roots;
+    int64_t cells = 2 * fibre->roots;
     for (int32_t i = 0; i < level; i++) {
-        cells *= proof->graph.fibre->children;
-        if (cells > proof->graph.capacity)
+        cells *= fibre->children;
+        if (cells > (int64_t)limits->max_cells + CAGE_CELL_ROOT)
             return i;
     }
     return level;
@@ -85,8 +86,8 @@ static uint64_t work_bytes(const cage_scene *scene)
 /* What is left of the block is shared out: of the first 256 KiB a 16th for facts and 9 20ths to work in, of what is beyond an
  * eighth and half; all others are to hold slices, at the expense of which there can be more of the other two later, and so is
  * what working cannot take: the most it ever takes and a sixteenth. (Each part grows with the block: a larger one serves as
- * well.) Where all facts are kept, half is for them and a third to work in. */
-enum { FACTS_PART = 8, WORK_PART = 2, ALL_FACTS_PART = 2, ALL_WORK_PART = 3, LEAST_WORK_PART = 16, WORK_TIMES = 4 };
+ * well.) Where all facts are kept, half is for them and an eighth to work in. */
+enum { FACTS_PART = 8, WORK_PART = 2, ALL_FACTS_PART = 2, ALL_WORK_PART = 8, LEAST_WORK_PART = 16, WORK_TIMES = 4, ALL_TIMES = 3 };
 enum { FIRST_BYTES = 256 << 10, FIRST_FACTS_PART = 16, FIRST_WORK_20THS = 9, SPARE_POSES = 64 };
 
 static size_t facts_part(const struct cage_proof *proof) { return proof->all ? ALL_FACTS_PART : FACTS_PART; }
@@ -156,11 +157,12 @@ bool cage_proof_make_room(struct cage_proof *proof)
     return true;
 }
 
-/* Enough for one search. */
-static uint64_t size_of_one(const cage_scene *scene, const cage_limits *limits)
+uint64_t cage_proof_size(const cage_scene *scene, const cage_limits *limits)
 {
-    uint64_t work = work_bytes(scene), facts = 32768 + 64 * (uint64_t)limits->max_cells;
-    return fixed_bytes(scene, limits) + 4 * (work / 2 > facts ? work / 2 : facts); /* < 2^42 */
+    uint64_t inner = (uint64_t)scene->object.inner_count * (uint64_t)scene->obstacles.inner_count;
+    uint64_t outer = (uint64_t)scene->object.outer_count * (uint64_t)scene->obstacles.outer_count;
+    uint64_t facts = 16384 + 32 * (uint64_t)limits->max_cells;
+    return fixed_bytes(scene, limits) + facts + 24576 + (scene->dim == 2 ? 300 : 900) * (inner > outer ? inner : outer); /* < 2^40 */
 }
 
 /* Both sides in space, and enough cells for two searches: one for each CAGE_SECOND_CELLS goes to the second. */
@@ -200,12 +202,12 @@ size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits)
     }
     if (limits_check(limits, scene->dim) != CAGE_OK)
         return 0;
-    uint64_t all = size_of_one(scene, limits);
+    uint64_t all = cage_proof_size(scene, limits);
     if (has_second(scene, limits)) {
         cage_limits first, second;
         share_limits(limits, &first, &second);
-        uint64_t other = 3 * size_of_one(scene, &second);
-        all = size_of_one(scene, &first) * 3 / 2;
+        uint64_t other = 3 * cage_proof_size(scene, &second);
+        all = cage_proof_size(scene, &first) * 3 / 2;
         all = (all > other ? all : other) + 4 * CAGE_ALIGN;
     }
     return all > SIZE_MAX ? SIZE_MAX : (size_t)all;
@@ -217,8 +219,8 @@ static uint64_t needed_by_one(const struct cage_proof *proof)
     uint64_t shared = 0, least = proof->shared + proof->shared / 2;
     if (proof->scratch.needed > proof->scratch.size) {
         uint64_t needed = (uint64_t)proof->scratch.needed + CAGE_ALIGN, ever = WORK_TIMES * work_bytes(&proof->scene);
-        uint64_t beyond = needed > ever ? LEAST_WORK_PART * (needed - ever) : 0;
-        shared = beyond > work_part(proof) * needed ? beyond : work_part(proof) * needed;
+        uint64_t beyond = needed > ever ? LEAST_WORK_PART * (needed - ever) : 0, times = proof->all ? ALL_TIMES : WORK_PART;
+        shared = beyond > times * needed ? beyond : times * needed;
     } else if (proof->arena.needed > proof->arena.size) {
         shared = proof->shared + facts_part(proof) * ((uint64_t)(proof->arena.needed - proof->arena.size) + CAGE_ALIGN);
     }
@@ -291,7 +293,8 @@ static int32_t begin(struct cage_proof *proof, const cage_pose *start, const cag
         for (int32_t k = 0; k < 3; k++)
             if (proof->at[end][k] < -reach || proof->at[end][k] > reach)
                 return CAGE_ERROR_RANGE;
-    int32_t level = proof->limits.start_level < 0 ? first_level(proof) : proof->limits.start_level;
+    int32_t level = proof->limits.start_level;
+    level = level < 0 ? cage_proof_first_level(scene, &proof->limits, proof->all) : level;
     if (!cage_graph_init(&proof->graph, level))
         return CAGE_ERROR_ARGUMENT;
     proof->result.level = proof->graph.level;

@@ -9,8 +9,8 @@ static const cage_ball *shape_balls(const cage_shape *shape, int32_t sign, int32
     return sign < 0 ? shape->inner : shape->outer;
 }
 
-/* Distance from p to the centre, rounded up; entries at most 2^29 apart. */
-static int32_t distance(const cage_ball *ball, const int32_t p[3])
+/* Entries at most 2^29 apart. */
+int32_t cage_reach(const cage_ball *ball, const int32_t p[3])
 {
     const int32_t v[3] = {ball->x - p[0], ball->y - p[1], ball->z - p[2]};
     return cage_length(v);
@@ -24,7 +24,7 @@ static int32_t farthest(const cage_shape *object, const int32_t p[3], const cage
     for (int32_t sign = -1; sign <= 1; sign += 2) {
         const cage_ball *from = shape_balls(object, sign, &count);
         for (int32_t i = 0; i < count; i++) {
-            int32_t far = distance(&from[i], p);
+            int32_t far = cage_reach(&from[i], p);
             if (far > largest) {
                 largest = far;
                 *ball = &from[i];
@@ -97,7 +97,7 @@ int32_t cage_side_make(struct cage_arena *arena, const cage_scene *scene, const 
     if (!ball || !reach)
         return CAGE_ERROR_MEMORY;
     for (int32_t i = 0; i < out->objects; i++) {
-        reach[i] = distance(&from[i], pivot);
+        reach[i] = cage_reach(&from[i], pivot);
         ball[i] = from[i];
         ball[i].x -= pivot[0];
         ball[i].y -= pivot[1];
@@ -179,7 +179,7 @@ static int64_t extent(const cage_shape *shape, const int32_t from[3], int64_t fa
         int32_t count;
         const cage_ball *ball = shape_balls(shape, sign, &count);
         for (int32_t i = 0; i < count; i++) {
-            int64_t size = factor * distance(&ball[i], from) + ball[i].r;
+            int64_t size = factor * cage_reach(&ball[i], from) + ball[i].r;
             most = size > most ? size : most;
         }
     }

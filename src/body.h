@@ -26,6 +26,9 @@ struct cage_side {
  * the origin if that serves as well. Any point is sound; this one keeps displacements small. */
 void cage_pivot(const cage_shape *object, int32_t pivot[3]);
 
+/* How far the ball's centre is from p, rounded up. */
+int32_t cage_reach(const cage_ball *ball, const int32_t p[3]);
+
 /* Copies the object's balls, moved, into the arena. */
 int32_t cage_side_make(struct cage_arena *arena, const cage_scene *scene, const int32_t pivot[3], int32_t sign,
                        struct cage_side *out);

@@ -57,6 +57,12 @@ struct cage_proof {
 /* The second search may make one cell for so many of the first. */
 enum { CAGE_SECOND_CELLS = 8 };
 
+/* The level to begin with where the limits name none. */
+int32_t cage_proof_first_level(const cage_scene *scene, const cage_limits *limits, bool all);
+
+/* What one search takes, as a rule: cells, facts, and slices of which half the balls or more are covered, or apart. */
+uint64_t cage_proof_size(const cage_scene *scene, const cage_limits *limits);
+
 /* The state of a proof whose cells are all wanted; cells 0 and 1 are not. */
 int32_t cage_proof_begin_all(struct cage_proof **proof, const cage_scene *scene, const cage_limits *limits, void *memory,
                              size_t bytes);

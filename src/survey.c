@@ -12,33 +12,34 @@
 
 enum { CELLS_2D = 2048, CELLS_3D = 8192 };
 
-/* All cells down to a level, or more than 2^24. */
+/* All cells down to a level (-1: none), or more than 2^24. */
 static int64_t cells_down_to(int32_t dim, int32_t level)
 {
-    int64_t of_level = dim == 2 ? 2 : 4, cells = of_level;
-    for (int32_t i = 0; i < level && cells <= 1 << 24; i++) {
-        of_level *= dim == 2 ? 2 : 8;
+    int64_t of_level = dim == 2 ? CAGE_ROOTS_2D : CAGE_ROOTS_3D, cells = 0;
+    for (int32_t i = 0; i <= level && cells <= 1 << 24; i++) {
         cells += of_level;
+        of_level *= dim == 2 ? CAGE_CHILDREN_2D : CAGE_CHILDREN_3D;
     }
     return cells;
 }
 
-static int32_t limits_of(int32_t dim, const cage_plan *plan, cage_limits *limits)
+/* Also the level to begin with, if the plan names none. */
+static int32_t limits_of(const cage_scene *scene, const cage_plan *plan, cage_limits *limits)
 {
-    int32_t finest = dim == 2 ? CAGE_LEVEL_MAX_2D : CAGE_LEVEL_MAX_3D;
+    int32_t dim = scene->dim, finest = dim == 2 ? CAGE_LEVEL_MAX_2D : CAGE_LEVEL_MAX_3D;
     if (plan->side < CAGE_SIDE_INNER || plan->side > CAGE_SIDE_BOTH || plan->level < -1 || plan->level > finest ||
         plan->max_cells < 0 || plan->max_cells > 1 << 24)
-        return CAGE_ERROR_ARGUMENT;
-    int64_t cells = plan->level < 0 ? (dim == 2 ? CELLS_2D : CELLS_3D) : cells_down_to(dim, plan->level);
-    cells = plan->max_cells > 0 ? plan->max_cells : cells;
-    if (cells > 1 << 24)
         return CAGE_ERROR_ARGUMENT;
     cage_limits_default(limits, dim);
     limits->side = plan->side;
     limits->start_level = plan->level;
     limits->max_level = finest;
+    limits->max_cells = plan->max_cells > 0 ? plan->max_cells : dim == 2 ? CELLS_2D : CELLS_3D;
+    if (plan->level < 0)
+        limits->start_level = cage_proof_first_level(scene, limits, true);
+    int64_t cells = plan->max_cells > 0 ? plan->max_cells : cells_down_to(dim, limits->start_level);
     limits->max_cells = (int32_t)cells;
-    return CAGE_OK;
+    return cells > 1 << 24 ? CAGE_ERROR_ARGUMENT : CAGE_OK;
 }
 
 void cage_plan_default(cage_plan *plan)
@@ -52,15 +53,28 @@ void cage_plan_default(cage_plan *plan)
 enum { SURVEY_HEAD = sizeof(struct cage_survey), SHEET_BYTES = sizeof(struct cage_sheet) };
 enum { SURVEY_BYTES_HOLDS = 1 / (SURVEY_HEAD <= 512 && SHEET_BYTES <= 32 ? 1 : 0) };
 
+/* Of an atlas: for each ball of a slice about so many, and so many for the slice. */
+enum { BYTES_PER_BALL_2D = 33, BYTES_PER_BALL_3D = 26, BYTES_PER_SLICE = 256 };
+
 size_t cage_survey_size(const cage_scene *scene, const cage_plan *plan)
 {
     cage_limits limits;
-    if (cage_scene_check(scene) != CAGE_OK || !plan || limits_of(scene->dim, plan, &limits) != CAGE_OK)
+    if (cage_scene_check(scene) != CAGE_OK || !plan || limits_of(scene, plan, &limits) != CAGE_OK || cage_prove_size(scene, &limits) == 0)
         return 0;
-    limits.side = CAGE_SIDE_INNER; /* one search */
-    size_t one = cage_prove_size(scene, &limits), cells = (size_t)limits.max_cells + CAGE_CELL_ROOT;
-    size_t balls = (size_t)scene->obstacles.inner_count * sizeof(cage_ball);
-    return one == 0 ? 0 : sizeof(struct cage_survey) + 4 * one + 2 * CAGE_SIDES * cells * sizeof(struct cage_sheet) + 4 * balls;
+    uint64_t cells = (uint64_t)limits.max_cells, bytes = 0;
+    uint64_t slices = cells - (uint64_t)cells_down_to(scene->dim, limits.start_level - 1); /* cells above it have none */
+    for (int32_t side = 0; side < CAGE_SIDES; side++) {
+        int32_t objects = side == CAGE_INNER ? scene->object.inner_count : scene->object.outer_count;
+        int32_t obstacles = side == CAGE_INNER ? scene->obstacles.inner_count : scene->obstacles.outer_count;
+        uint64_t ball = scene->dim == 2 ? BYTES_PER_BALL_2D : BYTES_PER_BALL_3D;
+        if (plan->side >> side & 1) /* < 2^24 2^5 2^28 */
+            bytes += slices * (ball * (uint64_t)objects * (uint64_t)obstacles + BYTES_PER_SLICE);
+    }
+    /* What is taken in the beginning is of the facts, which have half of the block then. */
+    bytes += sizeof(struct cage_survey) + cage_proof_size(scene, &limits) +
+             2 * (CAGE_SIDES * (cells + CAGE_CELL_ROOT) * sizeof(struct cage_sheet) +
+                  (uint64_t)scene->obstacles.inner_count * sizeof(cage_ball));
+    return bytes > SIZE_MAX ? SIZE_MAX : (size_t)bytes;
 }
 
 int32_t cage_survey_begin(cage_survey **survey, const cage_scene *scene, const cage_plan *plan, void *memory, size_t bytes)
@@ -71,7 +85,7 @@ int32_t cage_survey_begin(cage_survey **survey, const cage_scene *scene, const c
         return CAGE_ERROR_ARGUMENT;
     int32_t error = cage_scene_check(scene);
     if (error == CAGE_OK)
-        error = limits_of(scene->dim, plan, &limits);
+        error = limits_of(scene, plan, &limits);
     if (error != CAGE_OK)
         return error;
     cage_arena_init(&arena, memory, bytes);
@@ -166,7 +180,7 @@ static int32_t build(struct cage_survey *survey)
     int32_t error = cage_proof_slice(proof, survey->side, survey->cell, &slice);
     if (error != CAGE_OK)
         return error;
-    size_t mark = proof->scratch.used;
+    size_t mark = proof->scratch.used, before = proof->arena.used;
     if (proof->taken)
         chart = proof->taken->chart;
     else
@@ -181,6 +195,8 @@ static int32_t build(struct cage_survey *survey)
     if (error == CAGE_OK) {
         sheet->chart.words = chart.words;
         sheet->chart.word = word;
+    } else {
+        cage_arena_release(&proof->arena, before); /* as if it had not been tried */
     }
     return error;
 }
@@ -201,8 +217,10 @@ static int32_t glue(struct cage_survey *survey, int32_t other)
         error = cage_glue(&proof->scratch, c, d, CAGE_ALL, &touch, &count, &mixed);
     if (error == CAGE_OK)
         error = cage_graph_add_gluing(&proof->graph, survey->side, survey->cell, other, CAGE_ALL, touch, count);
-    proof->result.gluings[survey->side]++;
-    proof->result.mixtures[survey->side] += mixed;
+    if (error == CAGE_OK) {
+        proof->result.gluings[survey->side]++;
+        proof->result.mixtures[survey->side] += mixed;
+    }
     cage_arena_release(&proof->scratch, mark);
     return error;
 }
@@ -398,12 +416,16 @@ void cage_survey_sum_up(struct cage_survey *survey)
     result->atlas_bytes = survey->done ? cage_survey_atlas(survey, NULL, 0) : 0;
 }
 
-/* False: there is no step to take. */
+/* False: there is no step to take. One that finds no memory is taken again where there is some to be had from the store. */
 static bool advance(struct cage_survey *survey)
 {
-    if (survey->proof->error != CAGE_OK || is_finished(survey))
+    struct cage_proof *proof = survey->proof;
+    if (proof->error != CAGE_OK || is_finished(survey))
         return false;
-    survey->proof->error = step(survey);
+    do {
+        proof->arena.needed = proof->scratch.needed = 0;
+        proof->error = step(survey);
+    } while (proof->error == CAGE_ERROR_MEMORY && cage_proof_make_room(proof));
     survey->result.steps++;
     return true;
 }

@@ -836,9 +836,9 @@ fi
 cp "$folder/atlas" "$folder/first"
 atlas "the same again" bar fence --level 4 --quiet
 holds cmp -s "$folder/atlas" "$folder/first"
-atlas "in as little memory as will do" bar fence --level 4 --quiet --memory 3M
+atlas "in as little memory as will do" bar fence --level 4 --quiet --memory 100K
 holds cmp -s "$folder/atlas" "$folder/first"
-atlas "too little memory" bar fence --level 4 --memory 100K
+atlas "too little memory" bar fence --level 4 --memory 40K
 holds [ "$code" -eq 3 ]
 holds grep -q 'try --memory [0-9]' "$folder/err"
 walls=$(dirname "$0")/../examples/walls

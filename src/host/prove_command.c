@@ -430,7 +430,7 @@ static int run(const options *given, host_query *query, host_grid *grid, void **
     todo.answer = &answer;
     todo.threads = threads;
     todo.progress = progress;
-    code = host_in_block(cage_prove_size(&grid->scene, &limits), given->memory != NULL ? &bytes : NULL, attempt, &todo, block,
+    code = host_in_block(4 * cage_prove_size(&grid->scene, &limits), given->memory != NULL ? &bytes : NULL, attempt, &todo, block,
                          "query", error);
     if (code == HOST_OK)
         code = show_answer(given, &answer, &found, error);

@@ -44,7 +44,7 @@ for name in cortex-m3 rv32; do
     awk '$1 == $2' "$here/calls" >"$out/loops"
     tsort "$here/calls" 2>&1 >"$out/order" | sed -n 's/^tsort: //p' | grep -v 'input contains a loop' >>"$out/loops"
     empty "$name: no recursion" "$out/loops"
-    for call in cage_atlas_ask cage_atlas_open cage_prove_begin cage_prove_run cage_survey_run cage_survey_atlas cage_path_check \
+    for call in cage_atlas_ask cage_atlas_open cage_prove_begin cage_prove_run_inner cage_prove_run cage_survey_run cage_survey_atlas cage_path_check \
         cage_margin_find; do
         deepest "$here" $call >"$out/deepest"
         echo "$name stack $call $(sed 's/ .*//' "$out/deepest")" >>"$out/taken"

@@ -161,7 +161,7 @@ class Proof:
         self.seconds = 0.0
         self._lock = threading.Lock()
         self._handle = ctypes.c_void_p()
-        size = _native.lib.cage_prove_size(ctypes.byref(grid.struct), ctypes.byref(limits))
+        size = 4 * _native.lib.cage_prove_size(ctypes.byref(grid.struct), ctypes.byref(limits))
         self._begin(min(size, self.most) if size else 0)
 
     def _begin(self, size: int) -> None:
