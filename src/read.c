@@ -5,7 +5,7 @@
 
 int32_t cage_read_length(const cage_atlas *atlas, uint32_t at)
 {
-    int32_t length = cage_read_number(atlas, at), reach = atlas->dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
+    int32_t length = cage_words_number(cage_read_word(atlas, at)), reach = atlas->dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
     return length > reach ? reach : length < -reach ? -reach : length;
 }
 
