@@ -156,14 +156,16 @@ void cage_limits_default(cage_limits *limits, int32_t dim);
  * that has it give four times that. Limits null: the default ones. 0 if the scene or the limits are not valid. */
 size_t cage_prove_size(const cage_scene *scene, const cage_limits *limits);
 
-/* The same as a constant expression, for a block that is an array: never less than cage_prove_size, and at most 1.2 times that; in
- * space 3.1 times where one side alone is asked for, or max_cells is below 40 (somewhat more where pointers have 32 bits). For
- * shapes whose inner and outer counts are not more than these, and limits with that many cells. */
+/* The same as a constant expression, for a block that is an array: never less than cage_prove_size (if it fits a size_t), and at
+ * most 1.2 times that; in space 3.1 times where there is but one search, as one side alone is asked for, or max_cells is too few
+ * for two from the start level on; somewhat more where pointers have 32 bits. For shapes whose inner and outer counts are not more
+ * than these, and limits with that many cells. */
 #define CAGE_PROVE_BYTES(dim, objects, obstacles, max_cells)                                                              \
-    ((dim) == 2 ? CAGE_PROVE_BYTES_OF_ONE(objects, 300ul * (objects) * (obstacles), 1ul * (max_cells))                    \
-                : CAGE_PROVE_BYTES_OF_TWO(CAGE_PROVE_BYTES_OF_ONE(objects, 900ul * (objects) * (obstacles), 1ul * (max_cells)), \
-                                          CAGE_PROVE_BYTES_OF_ONE(objects, 900ul * (objects) * (obstacles), (max_cells) / 8ul)))
-#define CAGE_PROVE_BYTES_OF_ONE(objects, work, cells) (43520 + 64ul * (objects) + (work) + 144 * (cells))
+    ((dim) == 2 ? CAGE_PROVE_BYTES_OF_ONE(objects, (size_t)300 * (objects) * (obstacles), (size_t)1 * (max_cells))        \
+                : CAGE_PROVE_BYTES_OF_TWO(                                                                                \
+                      CAGE_PROVE_BYTES_OF_ONE(objects, (size_t)900 * (objects) * (obstacles), (size_t)1 * (max_cells)), \
+                      CAGE_PROVE_BYTES_OF_ONE(objects, (size_t)900 * (objects) * (obstacles), (size_t)(max_cells) / 8)))
+#define CAGE_PROVE_BYTES_OF_ONE(objects, work, cells) (43520 + (size_t)64 * (objects) + (work) + 144 * (cells))
 #define CAGE_PROVE_BYTES_OF_TWO(first, second) ((first) > 2 * (second) ? (first) / 2 * 3 + 64 : 3 * (second) + 64)
 
 /* Ask: can the object leave the start (goal null), or get from start to goal? The scene's balls are
@@ -305,15 +307,16 @@ void cage_plan_default(cage_plan *plan);
  * usual one has in use at once, its atlas included. 0 if scene or plan are not valid. */
 size_t cage_survey_size(const cage_scene *scene, const cage_plan *plan);
 
-/* The same as a constant expression, for a block that is an array: never less, and at most 1.4 times that where both sides are
- * asked for (2.2 times with max_cells in the plane; somewhat more where pointers have 32 bits). For shapes with no more balls than
- * these on either side. slices: of one side, those of the cells of the plan's level (in the plane 2, 4, 8, ..., in space 4, 32,
+/* The same as a constant expression, for a block that is an array: never less (if it fits a size_t), at most 1.4 times that where
+ * both sides are asked for (2.2 times with max_cells in the plane; somewhat more where pointers have 32 bits). For shapes with no
+ * more balls than these on either side. slices: of one side, those of the cells of the plan's level (in the plane 2, 4, 8, ..., in space 4, 32,
  * 256, ...), or with max_cells as many. */
 #define CAGE_SURVEY_BYTES(dim, objects, obstacles, slices)                                                                \
-    (896 + 128 * CAGE_SURVEY_CELLS(dim, slices) + 32ul * (obstacles) +                                                   \
-     CAGE_PROVE_BYTES_OF_ONE(objects, ((dim) == 2 ? 300ul : 900ul) * (objects) * (obstacles), CAGE_SURVEY_CELLS(dim, slices)) + \
-     2ul * (slices) * (((dim) == 2 ? 33ul : 26ul) * (objects) * (obstacles) + 256))
-#define CAGE_SURVEY_CELLS(dim, slices) ((dim) == 2 ? 2ul * (slices) : 1ul * (slices) + (slices) / 7ul + 1)
+    (896 + 128 * CAGE_SURVEY_CELLS(dim, slices) + (size_t)32 * (obstacles) +                                              \
+     CAGE_PROVE_BYTES_OF_ONE(objects, ((dim) == 2 ? (size_t)300 : (size_t)900) * (objects) * (obstacles),                 \
+                             CAGE_SURVEY_CELLS(dim, slices)) +                                                            \
+     (size_t)2 * (slices) * (((dim) == 2 ? (size_t)33 : (size_t)26) * (objects) * (obstacles) + 256))
+#define CAGE_SURVEY_CELLS(dim, slices) ((dim) == 2 ? (size_t)2 * (slices) : (size_t)(slices) + (size_t)(slices) / 7 + 1)
 
 /* The scene's balls are read until the atlas was written; memory (any alignment) is used until then. */
 int32_t cage_survey_begin(cage_survey **survey, const cage_scene *scene, const cage_plan *plan, void *memory, size_t bytes);

@@ -1,4 +1,7 @@
 /* predicate: the only file that answers a geometric question: formula, bound, tie rule. */
+#ifndef CAGE_SHARED
+#define CAGE_SHARED CAGE_INLINE
+#endif
 #include "predicate.h"
 
 extern inline cage_i128 cage_mix(int64_t m1, int64_t z1, int64_t m2, int64_t z2, int64_t m3, int64_t z3);

@@ -337,10 +337,13 @@ static int32_t finish_round(struct cage_survey *survey)
         cut = refine(survey);
     if (cut < 0)
         return cut;
+    size_t mark = survey->proof->arena.used;
     for (int32_t side = 0; side < CAGE_SIDES && cut == 0; side++) {
         int32_t error = is_wanted(survey, side) ? cage_classes_sum(survey, side) : CAGE_OK;
-        if (error != CAGE_OK)
+        if (error != CAGE_OK) {
+            cage_arena_release(&survey->proof->arena, mark); /* of both sides, which are taken anew */
             return error;
+        }
     }
     survey->done = cut == 0;
     survey->cell = survey->done ? -1 : cage_graph_leaf(&survey->proof->graph, -1);

@@ -1,4 +1,7 @@
 /* wide: 128- and 256-bit signed integers, without needing a 128-bit compiler type. */
+#ifndef CAGE_SHARED
+#define CAGE_SHARED CAGE_INLINE
+#endif
 #include "wide.h"
 
 extern inline uint32_t cage_u64_bits(uint64_t a);

@@ -10,12 +10,15 @@
 #include <stdint.h>
 
 /* CAGE_SHARED: a function of a header, compiled where it is called; or, for the least size, once for all that do not inline it: in
- * the file that declares it extern (C99, 6.7.4; elsewhere that says nothing new). */
+ * the file that declares it extern (C99, 6.7.4), whatever that one is compiled for. */
 #if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
 #define CAGE_INLINE inline __attribute__((always_inline))
-#define CAGE_SHARED static CAGE_INLINE
 #else
 #define CAGE_INLINE inline
+#endif
+#if !defined(CAGE_SHARED) && defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+#define CAGE_SHARED static CAGE_INLINE
+#elif !defined(CAGE_SHARED)
 #define CAGE_SHARED inline
 #endif
 

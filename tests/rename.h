@@ -4,6 +4,8 @@
 #ifndef RENAME_H
 #define RENAME_H
 
+#define CAGE_SHARED static inline /* compiled here, for this build alone */
+
 #define RENAME_JOIN(a, b) a##b
 #define RENAME_WITH(a, b) RENAME_JOIN(a, b)
 #define RENAME(name) RENAME_WITH(PREFIX, name)
