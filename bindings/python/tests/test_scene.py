@@ -421,7 +421,7 @@ def test_the_gil_is_released():
     thread = threading.Thread(target=tick)
     thread.start()
     begun = time.perf_counter()
-    atlas = Scene([[0, 0, 0.05], [0.05, 0, 0.05], [0, 0.07, 0.02]], walls).atlas(6, threads=1)
+    atlas = Scene([[0, 0, 0.05], [0.05, 0, 0.05], [0, 0.07, 0.02]], walls).atlas(8, threads=1)
     taken = time.perf_counter() - begun
     stop.set()
     thread.join()
