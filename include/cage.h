@@ -184,7 +184,7 @@ int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage
 int32_t cage_prove_run(cage_proof *proof, int64_t steps);
 
 /* The same for a proof that was begun with limits of CAGE_SIDE_INNER (else CAGE_ERROR_ARGUMENT): every byte of the result is the
- * same. An image that calls this one instead carries nothing that looks for paths, a quarter of the code. */
+ * same. An image that calls this one instead carries nothing that looks for paths, about a sixth of the code. */
 int32_t cage_prove_run_inner(cage_proof *proof, int64_t steps);
 
 /* Several cores for one proof. run calls task(data, i, w) once for each i in 0..tasks - 1, in any order, all at once
@@ -309,8 +309,8 @@ size_t cage_survey_size(const cage_scene *scene, const cage_plan *plan);
 
 /* The same as a constant expression, for a block that is an array: never less (if it fits a size_t), at most 1.4 times that where
  * both sides are asked for (2.2 times with max_cells in the plane; somewhat more where pointers have 32 bits). For shapes with no
- * more balls than these on either side. slices: of one side, those of the cells of the plan's level (in the plane 2, 4, 8, ..., in space 4, 32,
- * 256, ...), or with max_cells as many. */
+ * more balls than these on either side. slices: of one side, those of the cells of the plan's level (in the plane 2, 4, 8, ...,
+ * in space 4, 32, 256, ...), or with max_cells as many. */
 #define CAGE_SURVEY_BYTES(dim, objects, obstacles, slices)                                                                \
     (896 + 128 * CAGE_SURVEY_CELLS(dim, slices) + (size_t)32 * (obstacles) +                                              \
      CAGE_PROVE_BYTES_OF_ONE(objects, ((dim) == 2 ? (size_t)300 : (size_t)900) * (objects) * (obstacles),                 \

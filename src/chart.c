@@ -103,7 +103,7 @@ static void cut_to_ball(struct bounds *bounds, const struct cage_orthoball *ball
     }
 }
 
-/* ball: its orthoball, null beside the bounded components. */
+/* One more that is free; ball: its orthoball, null where it is of no bounded component. */
 static void open(struct draft *draft, int32_t s, int32_t label, const struct cage_orthoball *ball)
 {
     struct bounds made = {{0, 0, 0}, {0, 0, 0}, s, label};

@@ -141,6 +141,7 @@ static int32_t step_any(struct cage_proof *proof)
     }
 }
 
+/* cage_prove_run_inner has such a loop of its own, so that nothing leads from it to the code for paths. */
 int32_t cage_proof_step(struct cage_proof *proof)
 {
     struct cage_node *leg = proof->leg;
