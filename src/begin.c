@@ -50,7 +50,8 @@ int32_t cage_proof_first_level(const cage_scene *scene, const cage_limits *limit
     }
     for (int32_t j = 0; j < obstacles->inner_count; j++)
         sum += obstacles->inner[j].r;
-    radius = radius / object->inner_count + sum / obstacles->inner_count;
+    radius = (int64_t)(cage_u64_divide((uint64_t)radius, (uint64_t)object->inner_count) +
+                       cage_u64_divide((uint64_t)sum, (uint64_t)obstacles->inner_count));
     struct cage_cell cell = {0, 0, {0, 0, 0}};
     int64_t most = scene->dim == 2 || all ? radius / 2 : 2 * radius;
     while (level < limits->max_level && cage_displacement(fibre->turn(&cell), reach) > most) {

@@ -46,21 +46,33 @@ void cage_rotate(const struct cage_rotation *rotation, const int32_t y[3], int32
     }
 }
 
-/* times 2^bits; toward 0 */
-static int32_t scaled(int64_t a, int32_t bits)
+/* a times a power of two, rounded down to 31 bits, where `most` has so many. */
+static int64_t scaled(int64_t a, int64_t most)
 {
-    return (int32_t)(bits < 0 ? a / ((int64_t)1 << -bits) : a * ((int64_t)1 << bits));
+    const uint64_t lifted = (uint64_t)1 << 63;
+    uint32_t bits = cage_u64_bits((uint64_t)most);
+    if (bits <= 31)
+        return a * ((int64_t)1 << (31 - bits));
+    return (int64_t)(((uint64_t)a ^ lifted) >> (bits - 31)) - (int64_t)(lifted >> (bits - 31));
 }
 
+/* a / 2^bits, to nearest */
+static int32_t rounded(int64_t a, uint32_t bits)
+{
+    int64_t one = (int64_t)1 << bits;
+    return (int32_t)((a < 0 ? a - one / 2 : a + one / 2) / one);
+}
+
+/* In units of 2^-30: what is cut off the entry takes less than 1, what is cut off the norm adds less than 1 to its size or what is cut
+ * off the reciprocal takes less than 1, and rounding is off by 1/2. */
 void cage_rough_of(const int32_t q[4], struct cage_rough *rough)
 {
-    int64_t norm = cage_rotation_norm(q), row[3]; /* magnitudes <= norm < 2^has */
-    int32_t has = (int32_t)cage_u64_bits((uint64_t)norm);
-    rough->one = scaled(norm, 31 - has);
+    int64_t norm = cage_rotation_norm(q), row[3]; /* magnitudes <= norm */
+    int64_t inverse = (int64_t)cage_u64_divide((uint64_t)1 << 61, (uint64_t)scaled(norm, norm)); /* 2^30 to 2^31 */
     for (int32_t i = 0; i < 3; i++) {
         cage_rotation_row(q, i, row);
         for (int32_t k = 0; k < 3; k++)
-            rough->m[i][k] = scaled(row[k], 31 - has);
+            rough->m[i][k] = rounded(scaled(row[k], norm) * inverse, 31);
     }
 }
 
@@ -68,7 +80,7 @@ void cage_rough_rotate(const struct cage_rough *rough, const int32_t y[3], int32
 {
     for (int32_t i = 0; i < 3; i++) { /* < 3 2^31 2^28 */
         const int32_t *m = rough->m[i];
-        out[i] = (int32_t)(((int64_t)m[0] * y[0] + (int64_t)m[1] * y[1] + (int64_t)m[2] * y[2]) / rough->one);
+        out[i] = rounded((int64_t)m[0] * y[0] + (int64_t)m[1] * y[1] + (int64_t)m[2] * y[2], 30);
     }
 }
 
@@ -126,11 +138,9 @@ void cage_corners_of(const int32_t q[4], int32_t corner[8][4], struct cage_corne
             largest = p[k] > largest ? p[k] : -p[k] > largest ? -p[k] : largest;
         /* Largest entry to 2^30..2^31; then real part >= 2^29, as the angle is at most 60 degrees. Entries are off by
          * less than 1, so u by less than (1 + |u|) 2^-29 and the division's 2^-30. */
-        uint32_t bits = cage_u64_bits((uint64_t)largest);
-        for (int32_t k = 0; k < 4; k++)
-            p[k] = bits <= 31 ? p[k] * ((int64_t)1 << (31 - bits)) : p[k] / ((int64_t)1 << (bits - 31));
+        const cage_i128 real = cage_i128_of(scaled(p[0], largest));
         for (int32_t k = 0; k < 3; k++)
-            out->u[i][k] = p[k + 1] * ((int64_t)1 << 30) / p[0];
+            out->u[i][k] = cage_i128_nearest(cage_i128_mul(scaled(p[k + 1], largest), (int64_t)1 << 30), real, INT64_MAX);
     }
 }
 
@@ -182,7 +192,7 @@ static int64_t quotient(cage_i128 a, cage_i128 b)
     int64_t top = (int64_t)cage_i128_low(cage_i128_shr(size, drop)), bottom = (int64_t)cage_i128_low(cage_i128_shr(b, drop));
     if (drop > 0 && bottom >> 31 == 0)
         return INT64_MAX;
-    int64_t to = (top + bottom / 2) / bottom; /* what was dropped: a result / bottom at most */
+    int64_t to = (int64_t)cage_u64_divide((uint64_t)top + (uint64_t)bottom / 2, (uint64_t)bottom); /* what was dropped: a result / bottom at most */
     return cage_i128_negative(a) ? -to : to;
 }
 

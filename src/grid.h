@@ -21,16 +21,15 @@ void cage_rotation_of(const int32_t q[4], struct cage_rotation *rotation);
  * than 0.71 in the plane and 0.87 in space. */
 void cage_rotate(const struct cage_rotation *rotation, const int32_t y[3], int32_t out[3]);
 
-/* A rotation's matrix times `one`, and `one` itself, 2^30 <= one < 2^31, both cut off: for where something is about. */
+/* A rotation's matrix in units of 2^-30, each entry off by less than 2.5 of them: for where something is about. */
 struct cage_rough {
     int32_t m[3][3];
-    int32_t one;
 };
 
 void cage_rough_of(const int32_t q[4], struct cage_rough *rough);
 
-/* R y, entries of y at most 2^28: each coordinate is off by less than 2.2. (What was cut off the matrix takes 3 2^28 / 2^30,
- * what was cut off `one` (2^28 root(3) + 1) / 2^30, the division 1.) */
+/* R y, entries of y at most 2^28: each coordinate is off by less than 3 times 2.5 2^28 / 2^30, and 1/2: by less than 2.4. (In the
+ * plane 1.8, the point by less than 2.5; in space, where an object reaches 2^23 at most, the point by less than 1.) */
 void cage_rough_rotate(const struct cage_rough *rough, const int32_t y[3], int32_t out[3]);
 
 /* Twice the sine of the angle between two quaternions (that is, the largest |R y - R' y| / |y|), in units of 2^-31,

@@ -30,119 +30,34 @@ static CAGE_INLINE void cross(const int32_t b[3], const int32_t c[3], int64_t ou
     out[2] = cage_minor(b[0], c[1], b[1], c[0]);
 }
 
-/* The orthocentre z_0 + o solves 2 u_i . o = a_i, u_i = z_i - z_0, a_i < 2^61.2 in the plane, 2^51.8 in space. */
-static CAGE_INLINE void set_up(int32_t dim, const struct cage_site *const v[4], int32_t u[3][3], int64_t a[3])
+/* z_0 + o solves 2 u_i . o = a_i, u_i = z_i - z_0 and a_i its lift; in the plane u_2 = (0, 0, 1) and a_2 = 0 besides. By Cramer's
+ * rule o is the sum of a_i times the cofactor vector of u_i, over 2 det: 2^61.2 2^30, two of them, or 2^51.8 2^51, three. */
+static CAGE_INLINE void orthocentre(int32_t dim, const struct cage_site *const v[4], struct cage_centre *centre)
 {
+    int32_t u[3][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 1}};
+    int64_t a[3] = {0, 0, 0}, cofactor[3][3]; /* < 2^31 in the plane but for the last, det; < 2^51 in space */
     for (int32_t i = 0; i < dim; i++) {
         cage_difference(v[i + 1], v[0], u[i]);
         a[i] = lift(v[0], v[i + 1], u[i]);
     }
-}
-
-/* The cofactor vectors of the u_i, entries < 2^51; returns their determinant, < 2^78. */
-static CAGE_INLINE cage_i128 cofactors(int32_t u[3][3], int64_t out[3][3])
-{
-    cross(u[1], u[2], out[0]);
-    cross(u[2], u[0], out[1]);
-    cross(u[0], u[1], out[2]);
-    cage_i128 det = cage_i128_mul(out[0][0], u[0][0]);
-    cage_i128_add_product(&det, out[0][1], u[0][1]);
-    cage_i128_add_product(&det, out[0][2], u[0][2]);
-    return det;
-}
-
-/* By Cramer's rule: o = sum of a_i times the cofactor vector of u_i, over 2 det. */
-void cage_orthocentre(int32_t dim, const struct cage_site *const v[4], struct cage_centre *centre)
-{
-    int32_t u[3][3];
-    int64_t a[3], cofactor[3][3];
-    cage_i128 det;
-    if (dim == 2) { /* 2^61.2 2^30, two of them */
-        set_up(2, v, u, a);
-        centre->offset[0] = cage_i128_mul(a[0], u[1][1]);
-        cage_i128_add_product(&centre->offset[0], a[1], -u[0][1]);
-        centre->offset[1] = cage_i128_mul(a[1], u[0][0]);
-        cage_i128_add_product(&centre->offset[1], a[0], -u[1][0]);
-        centre->offset[2] = cage_i128_of(0);
-        det = cage_i128_of(cage_minor(u[0][0], u[1][1], u[0][1], u[1][0]));
-    } else { /* 2^51.8 2^51, three of them */
-        set_up(3, v, u, a);
-        det = cofactors(u, cofactor);
-        for (int32_t k = 0; k < 3; k++) {
-            centre->offset[k] = cage_i128_mul(cofactor[0][k], a[0]);
-            cage_i128_add_product(&centre->offset[k], cofactor[1][k], a[1]);
-            cage_i128_add_product(&centre->offset[k], cofactor[2][k], a[2]);
-        }
+    cross(u[1], u[2], cofactor[0]);
+    cross(u[2], u[0], cofactor[1]);
+    cross(u[0], u[1], cofactor[2]);
+    cage_i128 det = cage_i128_of(0); /* < 2^62, 2^78 */
+    for (int32_t k = 0; k < 3; k++) {
+        cage_i128_add_product(&det, cofactor[0][k], u[0][k]);
+        centre->offset[k] = cage_mix(cofactor[0][k], a[0], cofactor[1][k], -a[1], cofactor[2][k], a[2]);
     }
     centre->denominator = cage_i128_add(det, det);
     centre->base = v[0];
 }
 
-static CAGE_INLINE uint64_t size_of(int64_t a) { return a < 0 ? -(uint64_t)a : (uint64_t)a; }
-
-/* floor(a / 2^drop), |a| < 2^62 */
-static CAGE_INLINE int64_t cut(int64_t a, uint32_t drop)
+void cage_orthocentre(int32_t dim, const struct cage_site *const v[4], struct cage_centre *centre)
 {
-    const uint64_t lifted = (uint64_t)1 << 62;
-    return (int64_t)(((uint64_t)a + lifted) >> drop) - (int64_t)(lifted >> drop);
-}
-
-static CAGE_INLINE uint32_t excess(uint64_t all, uint32_t bits)
-{
-    uint32_t has = cage_u64_bits(all);
-    return has > bits ? has - bits : 0;
-}
-
-/* The sign of |n|^2 - (2 det r / 2^drop)^2 if every |n_k| is known but for less than the error; 0 if that does not
- * tell. |n_k| + error < 2^62; 2 det r < 2^104. */
-static CAGE_INLINE int32_t compare_roughly(int32_t dim, const int64_t n[3], uint64_t error, cage_i128 det, int32_t r,
-                                           uint32_t drop)
-{
-    cage_i128 least = cage_i128_of(0), most = least; /* up to three squares, each < 2^124 */
-    for (int32_t k = 0; k < dim; k++) {
-        uint64_t size = size_of(n[k]), less = size > error ? size - error : 0;
-        least = cage_i128_add(least, cage_u64_mul(less, less));
-        most = cage_i128_add(most, cage_u64_mul(size + error, size + error));
-    }
-    cage_i128 product = cage_i128_shr(cage_i128_scale(det, 2 * (int64_t)r), drop);
-    uint64_t low = cage_i128_low(product), g = cage_i128_high(product) | low >> 63 ? INT64_MAX : low; /* more is as good */
-    if (cage_i128_compare(most, cage_u64_mul(g, g)) <= 0)
-        return -1;
-    return cage_i128_compare(least, cage_u64_mul(g + 1, g + 1)) >= 0; /* g + 1 <= 2^63 */
-}
-
-/* The sign of the power from the top 31 bits of the a_i, so that products are off by less than the other factor; or 0. */
-static int32_t rough_power_2d(const struct cage_site *const v[4])
-{
-    int32_t u[3][3];
-    int64_t a[3];
-    set_up(2, v, u, a);
-    uint32_t drop = excess(size_of(a[0]) | size_of(a[1]), 31);
-    int64_t a0 = cut(a[0], drop), a1 = cut(a[1], drop); /* magnitudes <= 2^31 */
-    const int64_t n[3] = {a0 * u[1][1] - a1 * u[0][1], a1 * u[0][0] - a0 * u[1][0], 0};
-    uint64_t error = size_of(u[0][0]) + size_of(u[0][1]) + size_of(u[1][0]) + size_of(u[1][1]); /* < 2^32 */
-    return compare_roughly(2, n, error, cage_i128_of(cage_minor(u[0][0], u[1][1], u[0][1], u[1][0])), v[0]->r, drop);
-}
-
-static CAGE_INLINE uint64_t sizes_of(const int64_t v[3]) { return size_of(v[0]) | size_of(v[1]) | size_of(v[2]); }
-
-/* The same from the top 29 bits of the a_i and 31 of the cofactors: products are off by less than the sum of what is left of
- * their factors, and 1. */
-static int32_t rough_power_3d(const struct cage_site *const v[4])
-{
-    int32_t u[3][3];
-    int64_t a[3], c[3][3];
-    set_up(3, v, u, a);
-    cage_i128 det = cofactors(u, c);
-    uint64_t all = sizes_of(c[0]) | sizes_of(c[1]) | sizes_of(c[2]);
-    uint32_t lift_drop = excess(sizes_of(a), 29), drop = excess(all, 31);
-    int64_t a0 = cut(a[0], lift_drop), a1 = cut(a[1], lift_drop), a2 = cut(a[2], lift_drop);
-    const int64_t n[3] = {/* <= 3 2^29 2^31 */
-                          a0 * cut(c[0][0], drop) + a1 * cut(c[1][0], drop) + a2 * cut(c[2][0], drop),
-                          a0 * cut(c[0][1], drop) + a1 * cut(c[1][1], drop) + a2 * cut(c[2][1], drop),
-                          a0 * cut(c[0][2], drop) + a1 * cut(c[1][2], drop) + a2 * cut(c[2][2], drop)};
-    uint64_t error = size_of(a0) + size_of(a1) + size_of(a2) + 3 * ((all >> drop) + 2); /* < 2^34 */
-    return compare_roughly(3, n, error, det, v[0]->r, drop + lift_drop);
+    if (dim == 2)
+        orthocentre(2, v, centre);
+    else
+        orthocentre(3, v, centre);
 }
 
 int32_t cage_norm_compare(const cage_i128 n[3], cage_i128 g)
@@ -215,9 +130,6 @@ int32_t cage_simplex_power(int32_t dim, const struct cage_site *const v[4])
         for (int32_t k = i + 1; k <= 3; k++)
             if (are_apart(v[i], v[k]))
                 return 1;
-    int32_t sign = dim == 2 ? rough_power_2d(v) : rough_power_3d(v);
-    if (sign != 0)
-        return sign;
     struct cage_centre centre;
     cage_orthocentre(dim, v, &centre);
     return centre_power(&centre);
@@ -229,53 +141,42 @@ static int64_t top(cage_i128 a, uint32_t drop)
     return cage_i128_negative(a) ? -size : size;
 }
 
-/* The sign of denominator * triple + sum of offset_k * normal_k from the top bits of denominator and offset, 0 if
- * these do not tell: with so many bits dropped that those left are < 2^62 and products < 2^125, each term is off by
- * less than |triple| or |normal_k|. */
-static int32_t side_by_top_bits(const struct cage_centre *centre, const int64_t normal[3], cage_i128 triple)
+/* The sign of the sum of big_k * little_k, |little| < 2^54: from the top 62 bits of the big ones, each term then off by less than
+ * |little_k|, and if these do not tell, from all. */
+static int32_t mixed_sign(const cage_i128 big[3], const int64_t little[3])
 {
-    cage_i128 most = centre->denominator, size = cage_i128_abs(triple);
+    cage_i128 all = cage_i128_of(0), sum = all, error = all;
     for (int32_t k = 0; k < 3; k++) {
-        cage_i128 one = cage_i128_abs(centre->offset[k]);
-        most = cage_i128_compare(one, most) > 0 ? one : most;
+        cage_i128 size = cage_i128_abs(big[k]);
+        all = cage_i128_make(cage_i128_high(all) | cage_i128_high(size), cage_i128_low(all) | cage_i128_low(size));
     }
-    uint32_t bits = cage_u128_bits(most), of_triple = cage_u128_bits(size) + cage_u128_bits(centre->denominator);
-    uint32_t drop = bits > 62 ? bits - 62 : 0;
-    drop = of_triple > 125 + drop ? of_triple - 125 : drop;
-    cage_i128 sum = cage_i128_scale(triple, top(centre->denominator, drop)), error = size;
-    for (int32_t k = 0; k < 3; k++) { /* |normal| < 2^53 */
-        cage_i128_add_product(&sum, normal[k], top(centre->offset[k], drop));
-        error = cage_i128_add(error, cage_i128_of(normal[k] < 0 ? -normal[k] : normal[k]));
+    uint32_t bits = cage_u128_bits(all), drop = bits > 62 ? bits - 62 : 0;
+    for (int32_t k = 0; k < 3; k++) {
+        cage_i128_add_product(&sum, little[k], top(big[k], drop));
+        error = cage_i128_add(error, cage_i128_of(little[k] < 0 ? -little[k] : little[k]));
     }
-    if (cage_i128_compare(cage_i128_abs(sum), error) <= 0)
-        return 0;
-    return cage_i128_sign(sum);
+    if (cage_i128_compare(cage_i128_abs(sum), error) > 0)
+        return cage_i128_sign(sum);
+    cage_i256 exact = {{0, 0, 0, 0}};
+    for (int32_t k = 0; k < 3; k++)
+        cage_i256_add_product(&exact, big[k], cage_i128_of(little[k]));
+    return cage_i256_sign(&exact);
 }
 
+/* normal . (o - face_0), times the denominator: |big| < 2^95 in the plane, 2^107 in space. */
 int32_t cage_centre_side(int32_t dim, const struct cage_site *const face[3], const struct cage_centre *centre)
 {
-    int32_t b[3], c[3] = {0, 0, 1}, to_base[3];
+    int32_t b[3], c[3] = {0, 0, -1}, to_base[3];
     int64_t normal[3];
+    cage_i128 big[3];
     cage_difference(face[1], face[0], b);
     cage_difference(centre->base, face[0], to_base);
     if (dim == 3)
         cage_difference(face[2], face[0], c);
-    if (dim == 2) {
-        /* (c x b) . (o - face_0), times the denominator: 2^63 2^61 + 2 2^30 2^93 < 2^126 */
-        cage_i128 sum = cage_i128_scale(centre->denominator, cage_minor(b[0], to_base[1], b[1], to_base[0]));
-        sum = cage_i128_add(sum, cage_i128_scale(centre->offset[1], b[0]));
-        return cage_i128_sign(cage_i128_sub(sum, cage_i128_scale(centre->offset[0], b[1])));
-    }
     cross(b, c, normal);
-    cage_i128 triple = cage_triple(to_base, b, c);
-    int32_t sign = side_by_top_bits(centre, normal, triple);
-    if (sign != 0)
-        return sign;
-    cage_i256 sum = {{0, 0, 0, 0}};
-    cage_i256_add_product(&sum, centre->denominator, triple);
     for (int32_t k = 0; k < 3; k++)
-        cage_i256_add_product(&sum, centre->offset[k], cage_i128_of(normal[k]));
-    return cage_i256_sign(&sum);
+        big[k] = cage_i128_add(centre->offset[k], cage_i128_scale(centre->denominator, to_base[k]));
+    return mixed_sign(big, normal);
 }
 
 /* The orthocentre of a triangle in space lies at z_0 + (alpha u + beta v) / (2 gram). */
@@ -299,28 +200,6 @@ static void triangle_centre(const struct cage_site *const facet[3], struct trian
     cage_i128_add_product(&t->beta, t->a, -uv);
     t->gram = cage_i128_mul(uu, vv);
     cage_i128_add_product(&t->gram, uv, -uv);
-}
-
-/* The sign of the sum of big_k * little_k, |little| < 2^54: from the top 62 bits of the big ones, each term then off by less than
- * |little_k|, and if these do not tell, from all. */
-static int32_t mixed_sign(const cage_i128 big[3], const int64_t little[3])
-{
-    cage_i128 all = cage_i128_of(0), sum = all, error = all;
-    for (int32_t k = 0; k < 3; k++) {
-        cage_i128 size = cage_i128_abs(big[k]);
-        all = cage_i128_make(cage_i128_high(all) | cage_i128_high(size), cage_i128_low(all) | cage_i128_low(size));
-    }
-    uint32_t bits = cage_u128_bits(all), drop = bits > 62 ? bits - 62 : 0;
-    for (int32_t k = 0; k < 3; k++) {
-        cage_i128_add_product(&sum, little[k], top(big[k], drop));
-        error = cage_i128_add(error, cage_i128_of(little[k] < 0 ? -little[k] : little[k]));
-    }
-    if (cage_i128_compare(cage_i128_abs(sum), error) > 0)
-        return cage_i128_sign(sum);
-    cage_i256 exact = {{0, 0, 0, 0}};
-    for (int32_t k = 0; k < 3; k++)
-        cage_i256_add_product(&exact, big[k], cage_i128_of(little[k]));
-    return cage_i256_sign(&exact);
 }
 
 /* For an edge of length L: p <= 0 iff |r_0 - r_1| <= L <= r_0 + r_1. Squares <= 8 M^2 = 2^61. For a

@@ -9,15 +9,16 @@
  * all, a cage takes long. So may, late, the outer side of the first. */
 enum { EARLY = 16384, SECOND_EARLY = 3, SECOND_LATE = 16, GUIDED_EARLY = 2, GUIDED_LATE = 12 };
 
-static int64_t share(int64_t steps, int32_t early, int32_t late)
+/* Is that no more than its share of the steps? */
+static bool is_share(int64_t taken, int64_t steps, int32_t early, int32_t late)
 {
-    return steps < EARLY ? steps / early : EARLY / early + (steps - EARLY) / late;
+    return steps < EARLY ? taken * early <= steps : (taken - EARLY / early) * late <= steps - EARLY;
 }
 
 bool cage_proof_spares_outer(const struct cage_proof *proof)
 {
     return proof->second && proof->result.steps > EARLY &&
-           proof->outer_steps > share(proof->result.steps, GUIDED_EARLY, GUIDED_LATE);
+           !is_share(proof->outer_steps, proof->result.steps, GUIDED_EARLY, GUIDED_LATE);
 }
 
 /* The search whose turn it is. */
@@ -25,7 +26,7 @@ static struct cage_proof *next_search(struct cage_proof *proof)
 {
     struct cage_proof *second = proof->second;
     bool its_turn = second && !cage_proof_is_done(second) &&
-                    second->result.steps < share(proof->result.steps, SECOND_EARLY, SECOND_LATE);
+                    is_share(second->result.steps + 1, proof->result.steps, SECOND_EARLY, SECOND_LATE);
     return its_turn ? second : proof;
 }
 

@@ -5,6 +5,7 @@
 #include "wide.h"
 
 extern inline uint32_t cage_u64_bits(uint64_t a);
+extern inline uint64_t cage_u64_divide(uint64_t a, uint64_t b);
 extern inline cage_i128 cage_i128_make(uint64_t high, uint64_t low);
 extern inline uint64_t cage_i128_low(cage_i128 a);
 extern inline uint64_t cage_i128_high(cage_i128 a);

@@ -38,6 +38,23 @@ CAGE_SHARED uint32_t cage_u64_bits(uint64_t a)
 #endif
 }
 
+/* floor(a / b), b > 0. Without a wider type, as on small processors, bit by bit: few quotients have many. */
+CAGE_SHARED uint64_t cage_u64_divide(uint64_t a, uint64_t b)
+{
+#if defined(__SIZEOF_INT128__) && !defined(CAGE_LIMBS)
+    return a / b;
+#else
+    uint64_t quotient = 0;
+    uint32_t of_a = cage_u64_bits(a), of_b = cage_u64_bits(b);
+    for (uint32_t bit = of_a >= of_b ? of_a - of_b + 1 : 0; bit-- > 0;)
+        if (a >= b << bit) {
+            a -= b << bit;
+            quotient |= (uint64_t)1 << bit;
+        }
+    return quotient;
+#endif
+}
+
 #if defined(__SIZEOF_INT128__) && !defined(CAGE_LIMBS)
 
 __extension__ typedef __int128 cage_i128;

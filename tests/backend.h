@@ -28,6 +28,7 @@ enum wide_op {
     WIDE_BITS,
     WIDE_QUOTIENT,  /* a by b, unsigned */
     WIDE_REMAINDER,
+    WIDE_SHORT_QUOTIENT, /* a.word[0] by b.word[0], unsigned */
     WIDE_NEAREST,   /* a by b, limit c */
     WIDE_FLOOR,
     WIDE_ROOT,

@@ -49,6 +49,7 @@ static words backend_wide(enum wide_op op, words a, words b, int64_t c)
     case WIDE_BITS: return number(cage_u128_bits(x));
     case WIDE_QUOTIENT: return widen(cage_u128_divide(x, y, &rest));
     case WIDE_REMAINDER: (void)cage_u128_divide(x, y, &rest); return widen(rest);
+    case WIDE_SHORT_QUOTIENT: return number((int64_t)cage_u64_divide(a.word[0], b.word[0]));
     case WIDE_NEAREST: return number(cage_i128_nearest(x, y, c));
     case WIDE_FLOOR: return number(cage_i128_floor(x, y, c));
     case WIDE_ROOT: return number((int64_t)cage_u128_root(x));

@@ -87,6 +87,13 @@ static bool define(enum wide_op op, words a, words b, int64_t c, words *out)
         else
             mpz_fdiv_r(expected, u, v);
         break;
+    case WIDE_SHORT_QUOTIENT:
+        number_of(u, a, 1, false);
+        number_of(v, b, 1, false);
+        if (mpz_sgn(v) == 0)
+            return false;
+        mpz_fdiv_q(expected, u, v);
+        break;
     case WIDE_NEAREST:
         if (mpz_sgn(y) == 0 || !within(x, 126) || !within(y, 126) || c < 0)
             return false;
