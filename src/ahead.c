@@ -19,6 +19,25 @@ bool cage_workers_are_valid(const cage_workers *workers)
                         (workers->memory || !workers->bytes));
 }
 
+static const struct cage_unit *find(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a, int32_t b,
+                                    int32_t seed, struct cage_arena *scratch)
+{
+    for (int32_t i = 0; i < ahead->units; i++) {
+        struct cage_unit *unit = &ahead->unit[i];
+        if (!unit->done || unit->proof != proof || unit->side != side || unit->a != a || unit->b != b ||
+            (b >= 0 && unit->seed != seed))
+            continue;
+        if (scratch->size - scratch->used < unit->peak + NEAR_END)
+            break;
+        scratch->peak = scratch->peak > scratch->used + unit->peak ? scratch->peak : scratch->used + unit->peak;
+        scratch->used += unit->used;
+        unit->done = false;
+        return unit;
+    }
+    ahead->missed++;
+    return NULL;
+}
+
 struct cage_ahead *cage_ahead_make(const cage_workers *workers)
 {
     struct cage_arena all;
@@ -30,6 +49,7 @@ struct cage_ahead *cage_ahead_make(const cage_workers *workers)
         return NULL;
     for (int32_t i = 0; i < count; i++)
         cage_arena_init(&ahead->arena[i], all.base + all.used + (size_t)i * each, each);
+    ahead->find = find;
     ahead->units = 0;
     ahead->missed = ahead->patience = PATIENCE;
     return ahead;
@@ -164,25 +184,6 @@ void cage_ahead_work(struct cage_ahead *ahead, const struct cage_proof *proof, c
     if (proof->second)
         look(ahead, proof->second, CAGE_UNITS);
     cage_ahead_do(ahead, workers);
-}
-
-const struct cage_unit *cage_ahead_find(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a,
-                                        int32_t b, int32_t seed, struct cage_arena *scratch)
-{
-    for (int32_t i = 0; i < ahead->units; i++) {
-        struct cage_unit *unit = &ahead->unit[i];
-        if (!unit->done || unit->proof != proof || unit->side != side || unit->a != a || unit->b != b ||
-            (b >= 0 && unit->seed != seed))
-            continue;
-        if (scratch->size - scratch->used < unit->peak + NEAR_END)
-            break;
-        scratch->peak = scratch->peak > scratch->used + unit->peak ? scratch->peak : scratch->used + unit->peak;
-        scratch->used += unit->used;
-        unit->done = false;
-        return unit;
-    }
-    ahead->missed++;
-    return NULL;
 }
 
 int32_t cage_prove_run_with(cage_proof *proof, int64_t steps, const cage_workers *workers)

@@ -23,6 +23,9 @@ struct cage_unit {
 enum { CAGE_UNITS = 96, CAGE_WORKERS = 64 };
 
 struct cage_ahead {
+    /* The result, if it is there and would have fitted into scratch, which is left as if it had been worked out in it; else null. */
+    const struct cage_unit *(*find)(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a, int32_t b,
+                                    int32_t seed, struct cage_arena *scratch);
     struct cage_unit unit[CAGE_UNITS];
     struct cage_arena arena[CAGE_WORKERS];
     int32_t units;
@@ -55,9 +58,5 @@ void cage_ahead_do(struct cage_ahead *ahead, const cage_workers *workers);
 
 /* Find out what both searches need next, and do it. */
 void cage_ahead_work(struct cage_ahead *ahead, const struct cage_proof *proof, const cage_workers *workers);
-
-/* The result, if it is there and would have fitted into scratch, which is left as if it had been worked out in it; else null. */
-const struct cage_unit *cage_ahead_find(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a,
-                                        int32_t b, int32_t seed, struct cage_arena *scratch);
 
 #endif

@@ -1,8 +1,6 @@
-/* barrier: proofs that a component of one slice and one of its neighbour are apart, or share a point.
+/* barrier: proofs that a component of one slice and one of its neighbour are apart.
  *
- * K of slice c and L of slice d touch if a known grid point of one lies in the other.
- *
- * They are apart, if so proved: let every vertex of the triangulation of c move on a straight line to where it is in d, its power
+ * Component K of slice c and L of slice d: let every vertex of the triangulation of c move on a straight line to where it is in d, its power
  * function interpolated likewise, so that each ball on the way lies in the union of the one that it comes from and the one
  * that it goes to. A facet or full simplex is solid if at every time it lies in the union of its own balls. Let R be
  * the union of the full simplices reached from those labelled K without crossing a solid facet or entering a solid simplex, S its
@@ -31,8 +29,6 @@ struct cage_mover {
     int64_t weight;
 };
 
-enum { NO_POINT = -1, UNKNOWN_HOME = -2 };
-
 /* Balls move far if by more than 6 tenths of a radius: |by|^2 / 4 > 9 r^2 / 100; both below 2^59, in units of 2^8 here. */
 static bool moves_far(int64_t sag, int64_t radius) { return 100 * (sag >> 8) > 9 * (radius * radius >> 8); }
 
@@ -59,19 +55,18 @@ static struct cage_mover mover_of(const struct cage_site *site, const struct mov
     return mover;
 }
 
-int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, const struct cage_slice *d, const int32_t *match,
-                       struct cage_view *view)
+int32_t cage_barrier_make(struct cage_arena *arena, const int32_t *match, struct cage_view *view)
 {
-    struct cage_view made = {c, d, NULL, NULL, NULL, NULL, NULL, NULL, 0, 0, CAGE_COVERED, false, false};
+    const struct cage_slice *c = view->c, *d = view->d;
+    struct cage_barrier made = {NULL, NULL, NULL, NULL, 0, 0, CAGE_COVERED, false, false};
     int64_t longest = 0, radius = 0;
     made.mover = cage_arena_take(arena, (size_t)c->t.sites, sizeof *made.mover);
     made.reached = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.reached);
     made.queue = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.queue);
     made.solid = cage_arena_take(arena, (size_t)c->t.simplices, sizeof *made.solid);
-    made.home = cage_arena_take(arena, (size_t)d->regions, sizeof *made.home);
-    made.off = cage_arena_take(arena, (size_t)d->regions, sizeof *made.off);
+    view->barrier = cage_arena_take(arena, 1, sizeof *view->barrier);
     struct move *move = cage_arena_take(arena, (size_t)c->parts, sizeof *move);
-    if (!made.mover || !move || !made.reached || !made.queue || !made.solid || !made.home || !made.off)
+    if (!made.mover || !move || !made.reached || !made.queue || !made.solid || !view->barrier)
         return CAGE_ERROR_MEMORY;
     for (int32_t i = 0; i < c->parts; i++) {
         move[i] = move_of(&c->part[i], &d->part[match ? match[i] : i]);
@@ -86,18 +81,14 @@ int32_t cage_view_make(struct cage_arena *arena, const struct cage_slice *c, con
     made.far = moves_far(longest, radius);
     memset(made.reached, 0, (size_t)c->t.simplices * sizeof *made.reached);
     memset(made.solid, -1, (size_t)c->t.simplices * sizeof *made.solid);
-    for (int32_t l = 0; l < d->regions; l++) {
-        made.home[l] = d->region[l].known ? UNKNOWN_HOME : NO_POINT;
-        made.off[l] = -1;
-    }
-    *view = made;
+    *view->barrier = made;
     return CAGE_OK;
 }
 
 /* Greatest squared distance of two sites on their way: at one end of it. Differences < 2^29 in the plane, 2^24 in space. */
 static int64_t square_of(const struct cage_view *view, int32_t a, int32_t b)
 {
-    const int64_t *p = view->mover[a].at, *q = view->mover[b].at;
+    const int64_t *p = view->barrier->mover[a].at, *q = view->barrier->mover[b].at;
     int64_t here = 0, there = 0;
     int32_t e[3];
     cage_difference(&view->c->t.site[a], &view->c->t.site[b], e);
@@ -117,7 +108,7 @@ static bool is_solid_facet(const struct cage_view *view, int32_t s, int32_t i)
     for (int32_t k = 0; k <= t->dim; k++)
         if (k != i) {
             v[count] = t->simplex[s].v[k];
-            weight[count] = view->mover[v[count]].weight;
+            weight[count] = view->barrier->mover[v[count]].weight;
             if (weight[count++] < 0)
                 return false;
         }
@@ -126,71 +117,73 @@ static bool is_solid_facet(const struct cage_view *view, int32_t s, int32_t i)
     return cage_edges_covered(count, square, weight);
 }
 
-static bool is_solid(struct cage_view *view, int32_t s)
+static bool is_solid(const struct cage_view *view, int32_t s)
 {
     const struct cage_simplex *simplex = &view->c->t.simplex[s];
     int64_t square[4][4], weight[4];
-    if (view->solid[s] >= 0)
-        return view->solid[s];
-    view->solid[s] = 0;
+    int8_t *solid = &view->barrier->solid[s];
+    if (*solid >= 0)
+        return *solid;
+    *solid = 0;
     if (view->c->label[s] != CAGE_COVERED)
         return false;
     if (view->c->t.dim == 2) {
-        view->solid[s] = is_solid_facet(view, s, 3);
-        return view->solid[s];
+        *solid = is_solid_facet(view, s, 3);
+        return *solid;
     }
     for (int32_t i = 0; i < 4; i++) {
-        weight[i] = view->mover[simplex->v[i]].weight;
+        weight[i] = view->barrier->mover[simplex->v[i]].weight;
         if (weight[i] < 0)
             return false;
         for (int32_t k = 0; k < i; k++)
             square[i][k] = square[k][i] = square_of(view, simplex->v[i], simplex->v[k]);
     }
-    view->solid[s] = cage_tetrahedron_covered(square, weight);
-    return view->solid[s];
+    *solid = cage_tetrahedron_covered(square, weight);
+    return *solid;
 }
 
-static void reach(struct cage_view *view, int32_t s)
+static void reach(struct cage_barrier *barrier, int32_t s)
 {
-    view->reached[s] = view->spreads;
-    view->queue[view->length++] = s;
+    barrier->reached[s] = barrier->spreads;
+    barrier->queue[barrier->length++] = s;
 }
 
 /* Simplices of one label are joined by facets, so one will do; the outside may have but simplices with a sentinel. */
-static void reach_first(struct cage_view *view, int32_t k)
+static void reach_first(const struct cage_view *view, int32_t k)
 {
     const struct cage_triangulation *t = &view->c->t;
     if (k != CAGE_OUTSIDE) {
-        reach(view, view->c->region[k].deep);
+        reach(view->barrier, view->c->region[k].deep);
         return;
     }
     for (int32_t s = 0; s < t->simplices; s++)
         if (view->c->label[s] == k)
-            reach(view, s);
+            reach(view->barrier, s);
 }
 
 /* Find R for component k. */
-static void spread(struct cage_view *view, int32_t k)
+static void spread(const struct cage_view *view, int32_t k)
 {
     const struct cage_triangulation *t = &view->c->t;
     const int32_t *label = view->c->label;
-    view->spreads++;
-    view->from = k;
-    view->outer = false;
-    view->length = 0;
+    struct cage_barrier *barrier = view->barrier;
+    barrier->spreads++;
+    barrier->from = k;
+    barrier->outer = false;
+    barrier->length = 0;
     reach_first(view, k);
     bool small = k != CAGE_OUTSIDE && view->c->region[k].size <= SMALL;
-    for (int32_t n = 0; n < view->length; n++) {
-        int32_t s = view->queue[n];
-        view->outer = view->outer || cage_simplex_outer(t, s) || (small && n > LONG);
-        if (view->outer && k != CAGE_OUTSIDE)
+    for (int32_t n = 0; n < barrier->length; n++) {
+        int32_t s = barrier->queue[n];
+        barrier->outer = barrier->outer || cage_simplex_outer(t, s) || (small && n > LONG);
+        if (barrier->outer && k != CAGE_OUTSIDE)
             return; /* little would be told by what is left, and for a small component a mixture takes less */
         for (int32_t i = 0; i <= t->dim; i++) {
             int32_t twin = t->simplex[s].twin[i], next = twin >> 2;
-            if (twin == CAGE_HULL || view->reached[next] == view->spreads)
+            if (twin == CAGE_HULL || barrier->reached[next] == barrier->spreads)
                 continue;
             if (label[next] == k || (!is_solid_facet(view, s, i) && !is_solid(view, next)))
-                reach(view, next);
+                reach(barrier, next);
         }
     }
 }
@@ -199,23 +192,17 @@ static void spread(struct cage_view *view, int32_t k)
 static bool may_meet(const struct cage_view *view, const int32_t y[3])
 {
     const struct cage_triangulation *t = &view->c->t;
-    for (int32_t r = 0; r < view->length; r++)
+    const struct cage_barrier *barrier = view->barrier;
+    for (int32_t r = 0; r < barrier->length; r++)
         for (int32_t i = 0; i <= t->dim; i++) {
-            int32_t twin = t->simplex[view->queue[r]].twin[i];
-            if (twin == CAGE_HULL || view->reached[twin >> 2] == view->spreads)
+            int32_t twin = t->simplex[barrier->queue[r]].twin[i];
+            if (twin == CAGE_HULL || barrier->reached[twin >> 2] == barrier->spreads)
                 continue;
             for (int32_t n = 0; n <= t->dim; n++) /* sentinels never do */
                 if (cage_power(&t->site[t->simplex[twin >> 2].v[n]], y) <= 0)
                     return true;
         }
     return false;
-}
-
-static bool is_off(struct cage_view *view, int32_t l)
-{
-    if (view->off[l] < 0)
-        view->off[l] = cage_slice_clear(view->c, view->d->region[l].point);
-    return view->off[l];
 }
 
 /* Is a component of d, whose point is in the simplex, within one of that one's balls? */
@@ -233,39 +220,18 @@ static bool is_held(const struct cage_view *view, int32_t l, int32_t simplex)
     return false;
 }
 
-/* The simplex of c that holds the known point of l; -1: there is none. */
-static int32_t home_of(struct cage_view *view, int32_t l)
+bool cage_barrier_is_apart(const struct cage_view *view, int32_t k, int32_t l)
 {
-    if (view->home[l] == UNKNOWN_HOME)
-        view->home[l] = cage_delaunay_locate(&view->c->t, view->d->region[l].point, 0);
-    return view->home[l];
-}
-
-bool cage_view_is_apart(struct cage_view *view, int32_t k, int32_t l)
-{
-    int32_t home = home_of(view, l);
+    const struct cage_barrier *barrier = view->barrier;
+    int32_t home = cage_view_home(view, l);
     if (home >= 0 && is_held(view, l, home))
         return true;
-    if (view->from != k)
+    if (barrier->from != k)
         spread(view, k);
-    if (view->outer && k != CAGE_OUTSIDE)
+    if (barrier->outer && k != CAGE_OUTSIDE)
         return false;
     if (l == CAGE_OUTSIDE)
         return true;
-    return home >= 0 && view->reached[home] != view->spreads && (is_off(view, l) || !may_meet(view, view->d->region[l].point));
-}
-
-bool cage_view_is_touching(struct cage_view *view, int32_t k, int32_t l, int32_t x[3])
-{
-    const struct cage_region *a = &view->c->region[k], *b = &view->d->region[l];
-    const int32_t *point = NULL;
-    if (k == CAGE_OUTSIDE && l == CAGE_OUTSIDE)
-        point = a->point[1] > b->point[1] ? a->point : b->point; /* above both bounding boxes */
-    else if (home_of(view, l) >= 0 && view->c->label[view->home[l]] == k && is_off(view, l))
-        point = b->point;
-    else if (a->known && cage_slice_locate(view->d, a->point) == l)
-        point = a->point;
-    for (int32_t i = 0; point && i < 3; i++)
-        x[i] = point[i];
-    return point;
+    return home >= 0 && barrier->reached[home] != barrier->spreads &&
+           (cage_view_is_off(view, l) || !may_meet(view, view->d->region[l].point));
 }

@@ -89,7 +89,7 @@ void cage_pivot(const cage_shape *object, int32_t pivot[3])
 }
 
 int32_t cage_side_make(struct cage_arena *arena, const cage_scene *scene, const int32_t pivot[3], int32_t sign,
-                       struct cage_side *out)
+                       const struct cage_shortcuts *shortcuts, struct cage_side *out)
 {
     const cage_ball *from = shape_balls(&scene->object, sign, &out->objects);
     cage_ball *ball = cage_arena_take(arena, (size_t)out->objects, sizeof *ball);
@@ -110,6 +110,7 @@ int32_t cage_side_make(struct cage_arena *arena, const cage_scene *scene, const 
     out->obstacle = shape_balls(&scene->obstacles, sign, &out->obstacles);
     out->dim = scene->dim;
     out->sign = sign;
+    out->shortcuts = shortcuts;
     return CAGE_OK;
 }
 

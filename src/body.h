@@ -4,6 +4,7 @@
 
 #include "arena.h"
 #include "cage.h"
+#include "shortcuts.h"
 
 #include <stdbool.h>
 
@@ -19,6 +20,7 @@ struct cage_side {
     int32_t obstacles;
     int32_t dim;
     int32_t sign; /* -1: inner, +1: outer (see cage_radius_change) */
+    const struct cage_shortcuts *shortcuts; /* for its slices, or null */
     const int32_t *image[4]; /* [t]: for each ball, the one that half turn t about an axis takes it to; null: not looked for */
 };
 
@@ -31,7 +33,7 @@ int32_t cage_reach(const cage_ball *ball, const int32_t p[3]);
 
 /* Copies the object's balls, moved, into the arena. */
 int32_t cage_side_make(struct cage_arena *arena, const cage_scene *scene, const int32_t pivot[3], int32_t sign,
-                       struct cage_side *out);
+                       const struct cage_shortcuts *shortcuts, struct cage_side *out);
 
 /* Does half turn t (1 to 3: about axis t - 1 through the pivot) take the object's balls to themselves? 1: yes, and image[t] is
  * taken from the arena; 0: no, or there are so many that it was not looked for; CAGE_ERROR_MEMORY. */

@@ -110,7 +110,7 @@ int32_t cage_prove_candidate(cage_proof *proof, cage_step *step, int32_t steps, 
     int32_t done = find_way(proof);
     done = done == CAGE_FOUND ? write_down(proof, step, steps, count) : done < 0 ? done : 0;
     if (done == CAGE_ERROR_MEMORY)
-        proof->total.needed_bytes = cage_proof_needed(proof);
+        proof->total.needed_bytes = cage_prove_needed(proof);
     for (int32_t i = 0; i < count[1] && i < poses; i++)
         path[i] = proof->path[i];
     set_back(proof);

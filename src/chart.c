@@ -124,11 +124,10 @@ static void find_free(struct draft *draft)
 {
     const struct cage_triangulation *t = draft->t;
     const struct cage_slice *slice = draft->slice;
-    bool all = slice->balls == t->sites - t->dim - 1;
     for (int32_t i = 0; i < slice->orthoballs; i++)
         open(draft, slice->orthoball[i].simplex, slice->label[slice->orthoball[i].simplex], &slice->orthoball[i]);
     for (int32_t s = 0; s < t->simplices; s++)
-        if (slice->label[s] == CAGE_OUTSIDE || (slice->label[s] == CAGE_COVERED && !all && cage_component_free(t, s)))
+        if (slice->label[s] == CAGE_OUTSIDE || (slice->label[s] == CAGE_COVERED && !slice->whole && cage_component_free(t, s)))
             open(draft, s, slice->label[s] == CAGE_OUTSIDE ? CAGE_OUTSIDE : PHANTOM, NULL);
 }
 

@@ -102,3 +102,17 @@ int32_t cage_components(struct cage_arena *arena, const struct cage_triangulatio
     cage_arena_release(arena, kept);
     return CAGE_OK;
 }
+
+void cage_components_drop(const struct cage_triangulation *t, int32_t *now, struct cage_components *c)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < c->count; k++)
+        if (now[k] != CAGE_COVERED) {
+            c->deep[count] = c->deep[k];
+            now[k] = count++;
+        }
+    c->count = count;
+    for (int32_t s = 0; s < t->simplices; s++)
+        if (c->label[s] >= 0)
+            c->label[s] = now[c->label[s]];
+}

@@ -4,34 +4,10 @@
  * and the boundary of the hole (Bowyer, Watson 1981; for weights Edelsbrunner, Shah 1996). The tie rule makes the
  * triangulation that of generic heights, so the hole is star-shaped, no new simplex is flat, and a site
  * swallowed by the hole is hidden. Functions that take dim are compiled once for each value. */
-#include "delaunay.h"
+#include "build.h"
 #include "order.h"
 
 #include <string.h>
-
-/* Sites around a hole that the table of ridges has room for: about 15 are usual. */
-enum { RIDGE_SITES = 64 };
-
-/* In space, the ridges of a front by their ends: entry (u, v) is the facet through p and the edge from u to v. */
-struct ridges {
-    int32_t listed[RIDGE_SITES];
-    int32_t facet[RIDGE_SITES * RIDGE_SITES];
-};
-
-/* Working state of one build. mark[s] = 2 p + conflict, for the last site p that was tested against s. */
-struct build {
-    const struct cage_site *site;
-    struct cage_simplex *simplex;
-    int32_t *mark;
-    int32_t *hole;  /* simplices in conflict */
-    int32_t *front; /* facets between them and the others, as 4 s + i with s in the hole */
-    int32_t *number;       /* of a site in the table of ridges, if listed says so as well */
-    struct ridges *ridges; /* in space only */
-    int32_t capacity;
-    int32_t simplices; /* slots in use, dead ones included */
-    int32_t dead;      /* first of a list of dead slots linked through v[1], or -1; a dead slot has v[0] = -1 */
-    int32_t last;      /* a live simplex near the last insertion */
-};
 
 enum { UNLINKED = INT32_MIN };
 
@@ -74,7 +50,7 @@ static CAGE_INLINE int32_t walk(int32_t dim, const struct cage_site *site, const
     }
 }
 
-static CAGE_INLINE bool in_conflict(int32_t dim, const struct build *b, int32_t s, const struct cage_site *p)
+static CAGE_INLINE bool in_conflict(int32_t dim, const struct cage_build *b, int32_t s, const struct cage_site *p)
 {
     const struct cage_site *v[4];
     for (int32_t i = 0; i <= dim; i++)
@@ -83,7 +59,7 @@ static CAGE_INLINE bool in_conflict(int32_t dim, const struct build *b, int32_t 
 }
 
 /* A slot for a new simplex, or -1 when there is none left. */
-static int32_t new_slot(struct build *b)
+static int32_t new_slot(struct cage_build *b)
 {
     int32_t s = b->dead;
     if (s >= 0) {
@@ -99,7 +75,7 @@ static int32_t new_slot(struct build *b)
 
 /* Gather the hole and its front, breadth first from simplex s, which is in conflict; the number of front facets, -1 if there are
  * more than slots, so that they cannot be stitched. */
-static CAGE_INLINE int32_t carve(int32_t dim, struct build *b, int32_t p, int32_t s, int32_t *holes)
+static CAGE_INLINE int32_t carve(int32_t dim, struct cage_build *b, int32_t p, int32_t s, int32_t *holes)
 {
     const struct cage_site *site = &b->site[p];
     const struct cage_simplex *simplex = b->simplex;
@@ -137,12 +113,9 @@ static CAGE_INLINE int32_t index_of(int32_t dim, const struct cage_simplex *s, i
     return dim == 2 ? i : i + 3 * (s->v[3] == v);
 }
 
-/* A front facet of the hole names the new simplex behind it in place of its twin. */
-static CAGE_INLINE int32_t front_code(int32_t fresh) { return -2 - fresh; }
-
 /* Link facet j of the new simplex behind front facet i of h: turn about the ridge that lacks v_i and v_j, through
  * the hole, to the next front facet; the new simplex behind that one is the neighbour. */
-static CAGE_INLINE void link_ridge(int32_t dim, struct build *b, int32_t fresh, int32_t h, int32_t i, int32_t j)
+static CAGE_INLINE void link_ridge(int32_t dim, struct cage_build *b, int32_t fresh, int32_t h, int32_t i, int32_t j)
 {
     struct cage_simplex *simplex = b->simplex;
     int32_t s = h, out = j, kept = simplex[h].v[i], twin;
@@ -151,66 +124,22 @@ static CAGE_INLINE void link_ridge(int32_t dim, struct build *b, int32_t fresh, 
         out = index_of(dim, &simplex[s], kept);
         kept = simplex[s].v[twin & 3];
     }
-    int32_t neighbour = front_code(twin), facet = index_of(dim, &simplex[s], kept);
+    int32_t neighbour = cage_front_code(twin), facet = index_of(dim, &simplex[s], kept);
     simplex[fresh].twin[j] = 4 * neighbour + facet;
     simplex[neighbour].twin[facet] = 4 * fresh + j;
 }
 
-/* The number of site v among those on the front, without a branch (Briggs, Torczon, "An efficient representation for
- * sparse sets", 1993). */
-static CAGE_INLINE int32_t number_of(struct build *b, int32_t v, int32_t *count)
-{
-    int32_t n = b->number[v], unknown = (n >= *count) | (b->ridges->listed[n] != v);
-    n += (*count - n) * unknown;
-    *count += unknown;
-    b->number[v] = n;
-    b->ridges->listed[n] = v;
-    return n;
-}
-
-/* Link all new simplices in space: an edge of the front is an edge of two of its facets, once in either direction. False
- * when the front has too many sites for that. */
-static bool link_by_table(struct build *b, int32_t fronts)
-{
-    struct cage_simplex *simplex = b->simplex;
-    int32_t count = 0;
-    for (int32_t n = 0; n < fronts; n++) {
-        int32_t h = b->front[n] >> 2, i = b->front[n] & 3, fresh = front_code(simplex[h].twin[i]);
-        const int32_t *face = CAGE_FACE_3D[i];
-        struct cage_simplex *s = &simplex[fresh];
-        if (count > RIDGE_SITES - 4)
-            return false;
-        int32_t x = number_of(b, s->v[face[0]], &count), y = number_of(b, s->v[face[1]], &count);
-        int32_t z = number_of(b, s->v[face[2]], &count);
-        b->ridges->facet[RIDGE_SITES * y + z] = 4 * fresh + face[0];
-        b->ridges->facet[RIDGE_SITES * z + x] = 4 * fresh + face[1];
-        b->ridges->facet[RIDGE_SITES * x + y] = 4 * fresh + face[2];
-        s->twin[face[0]] = RIDGE_SITES * z + y; /* where its twin will be found */
-        s->twin[face[1]] = RIDGE_SITES * x + z;
-        s->twin[face[2]] = RIDGE_SITES * y + x;
-    }
-    for (int32_t n = 0; n < fronts; n++) {
-        int32_t h = b->front[n] >> 2, i = b->front[n] & 3, fresh = front_code(simplex[h].twin[i]);
-        for (int32_t k = 0; k < 3; k++) {
-            int32_t *twin = &simplex[fresh].twin[CAGE_FACE_3D[i][k]];
-            *twin = b->ridges->facet[*twin];
-        }
-        b->last = fresh;
-    }
-    return true;
-}
-
-/* The same by turning about each ridge. */
-static CAGE_INLINE void link_by_turning(int32_t dim, struct build *b, int32_t fronts)
+/* Link all new simplices by turning about each ridge. */
+static CAGE_INLINE void link_by_turning(int32_t dim, struct cage_build *b, int32_t fronts)
 {
     struct cage_simplex *simplex = b->simplex;
     for (int32_t n = 0; n < fronts; n++) {
-        int32_t h = b->front[n] >> 2, i = b->front[n] & 3, fresh = front_code(simplex[h].twin[i]);
+        int32_t h = b->front[n] >> 2, i = b->front[n] & 3, fresh = cage_front_code(simplex[h].twin[i]);
         for (int32_t k = 0; k < dim; k++)
             simplex[fresh].twin[face_of(dim, i)[k]] = UNLINKED;
     }
     for (int32_t n = 0; n < fronts; n++) {
-        int32_t h = b->front[n] >> 2, i = b->front[n] & 3, fresh = front_code(simplex[h].twin[i]);
+        int32_t h = b->front[n] >> 2, i = b->front[n] & 3, fresh = cage_front_code(simplex[h].twin[i]);
         for (int32_t k = 0; k < dim; k++) {
             int32_t j = face_of(dim, i)[k];
             if (simplex[fresh].twin[j] == UNLINKED)
@@ -222,7 +151,7 @@ static CAGE_INLINE void link_by_turning(int32_t dim, struct build *b, int32_t fr
 
 /* Replace the hole by simplices that join its front to site p. A new simplex is its hole simplex with one vertex
  * replaced by p, which keeps it positive. False when the slots run out. */
-static CAGE_INLINE bool stitch(int32_t dim, struct build *b, int32_t p, int32_t fronts, int32_t holes)
+static CAGE_INLINE bool stitch(int32_t dim, struct cage_build *b, int32_t p, int32_t fronts, int32_t holes)
 {
     struct cage_simplex *simplex = b->simplex;
     for (int32_t n = 0; n < fronts; n++) {
@@ -235,9 +164,9 @@ static CAGE_INLINE bool stitch(int32_t dim, struct build *b, int32_t p, int32_t 
         simplex[fresh].twin[i] = twin;
         if (twin != CAGE_HULL)
             simplex[twin >> 2].twin[twin & 3] = 4 * fresh + i;
-        simplex[h].twin[i] = front_code(fresh);
+        simplex[h].twin[i] = cage_front_code(fresh);
     }
-    if (dim == 2 || !link_by_table(b, fronts))
+    if (dim == 2 || !b->ridges || !b->shortcuts->ridges_link(b, fronts))
         link_by_turning(dim, b, fronts);
     for (int32_t n = 0; n < holes; n++) {
         int32_t h = b->hole[n];
@@ -248,7 +177,7 @@ static CAGE_INLINE bool stitch(int32_t dim, struct build *b, int32_t p, int32_t 
     return true;
 }
 
-static CAGE_INLINE bool insert_all(int32_t dim, struct build *b, int32_t first, int32_t sites)
+static CAGE_INLINE bool insert_all(int32_t dim, struct cage_build *b, int32_t first, int32_t sites)
 {
     for (int32_t p = first; p < sites; p++) {
         int32_t s = walk(dim, b->site, b->simplex, &b->site[p], b->last);
@@ -262,8 +191,8 @@ static CAGE_INLINE bool insert_all(int32_t dim, struct build *b, int32_t first, 
     return true;
 }
 
-static bool insert_all_2d(struct build *b, int32_t first, int32_t sites) { return insert_all(2, b, first, sites); }
-static bool insert_all_3d(struct build *b, int32_t first, int32_t sites) { return insert_all(3, b, first, sites); }
+static bool insert_all_2d(struct cage_build *b, int32_t first, int32_t sites) { return insert_all(2, b, first, sites); }
+static bool insert_all_3d(struct cage_build *b, int32_t first, int32_t sites) { return insert_all(3, b, first, sites); }
 
 static struct cage_site make_site(int32_t x, int32_t y, int32_t z, int32_t r, int64_t weight)
 {
@@ -288,7 +217,7 @@ static void make_sentinels(int32_t dim, struct cage_site *site)
 }
 
 /* Move live simplices into the dead slots before them, so that the slots in use are 0..simplices-1. */
-static void compact(int32_t dim, struct build *b)
+static void compact(int32_t dim, struct cage_build *b)
 {
     struct cage_simplex *simplex = b->simplex;
     int32_t end = b->simplices;
@@ -316,44 +245,41 @@ static size_t slots_expected(int32_t dim, int32_t sites)
 }
 
 /* What is needed beside sites and slots, rounding included. */
-static size_t bytes_beside(int32_t dim, int32_t sites)
+static size_t bytes_beside(const struct cage_triangulation *t)
 {
-    return 3 * CAGE_ALIGN + (dim == 3 ? (size_t)sites * sizeof(int32_t) + sizeof(struct ridges) : 0);
+    return 3 * CAGE_ALIGN + (t->dim == 3 && t->shortcuts ? t->shortcuts->ridges_size(t->sites) : 0);
 }
 
 /* Bytes from a mark on that suffice (a guess in space): sites, their order and its scratch, their numbers, slots. */
-static size_t bytes_expected(int32_t dim, int32_t sites)
+static size_t bytes_expected(const struct cage_triangulation *t)
 {
-    return (size_t)sites * (sizeof(struct cage_site) + 5 * sizeof(int32_t)) + slots_expected(dim, sites) * BYTES_PER_SIMPLEX +
-           5 * CAGE_ALIGN + bytes_beside(dim, sites);
+    return (size_t)t->sites * (sizeof(struct cage_site) + 5 * sizeof(int32_t)) +
+           slots_expected(t->dim, t->sites) * BYTES_PER_SIMPLEX + 5 * CAGE_ALIGN + bytes_beside(t);
 }
 
 /* All that is left of the arena serves as slots, of which the first are these simplices; slots not used will not count. */
-static bool take_slots(struct cage_arena *arena, int32_t dim, const struct cage_site *site, int32_t sites,
-                       const struct cage_simplex *first, int32_t simplices, struct build *b)
+static bool take_slots(struct cage_arena *arena, const struct cage_triangulation *t, const struct cage_simplex *first,
+                       int32_t simplices, struct cage_build *b)
 {
-    size_t beside = bytes_beside(dim, sites), bytes = cage_arena_room(arena, 1);
+    size_t beside = bytes_beside(t), bytes = cage_arena_room(arena, 1);
     size_t room = bytes > beside ? (bytes - beside) / BYTES_PER_SIMPLEX : 0;
-    b->site = site;
+    b->shortcuts = t->shortcuts;
+    b->ridges = NULL;
+    b->site = t->site;
     b->simplices = simplices;
     b->dead = -1;
     b->last = 0;
     b->capacity = room > INT32_MAX / 4 ? INT32_MAX / 4 : (int32_t)room;
     b->simplex = cage_arena_take(arena, (size_t)b->capacity, sizeof *b->simplex);
     int32_t *lists = cage_arena_take(arena, (size_t)b->capacity, BYTES_PER_SIMPLEX - sizeof *b->simplex);
-    b->number = dim == 3 ? cage_arena_take(arena, (size_t)sites, sizeof *b->number) : NULL;
-    b->ridges = dim == 3 ? cage_arena_take(arena, 1, sizeof *b->ridges) : NULL;
-    if (b->capacity < simplices || !b->simplex || !lists || (dim == 3 && (!b->number || !b->ridges)))
+    if (b->capacity < simplices || !b->simplex || !lists ||
+        (t->dim == 3 && b->shortcuts && !b->shortcuts->ridges_make(arena, b, t->sites)))
         return false;
     b->mark = lists;
     b->hole = lists + b->capacity;
     b->front = lists + 2 * (size_t)b->capacity;
     memcpy(b->simplex, first, (size_t)simplices * sizeof *first);
     memset(b->mark, 0, (size_t)simplices * sizeof *b->mark);
-    if (dim == 3) {
-        memset(b->number, 0, (size_t)sites * sizeof *b->number);
-        memset(b->ridges->listed, 0, sizeof b->ridges->listed);
-    }
     return true;
 }
 
@@ -361,9 +287,9 @@ static bool take_slots(struct cage_arena *arena, int32_t dim, const struct cage_
 static int32_t complete(struct cage_arena *arena, struct cage_triangulation *t, const struct cage_simplex *from,
                         int32_t simplices, int32_t first, size_t mark, bool dense)
 {
-    struct build b;
-    size_t kept = arena->used, peak = arena->peak, beside = bytes_beside(t->dim, t->sites);
-    bool done = take_slots(arena, t->dim, t->site, t->sites, from, simplices, &b);
+    struct cage_build b;
+    size_t kept = arena->used, peak = arena->peak, beside = bytes_beside(t);
+    bool done = take_slots(arena, t, from, simplices, &b);
     if (done)
         done = t->dim == 2 ? insert_all_2d(&b, first, t->sites) : insert_all_3d(&b, first, t->sites);
     arena->peak = peak;
@@ -382,26 +308,25 @@ static int32_t complete(struct cage_arena *arena, struct cage_triangulation *t, 
     return CAGE_OK;
 }
 
-int32_t cage_delaunay(struct cage_arena *arena, int32_t dim, const cage_ball *ball, int32_t count,
-                      struct cage_triangulation *out)
+int32_t cage_delaunay(struct cage_arena *arena, const struct cage_shortcuts *shortcuts, int32_t dim, const cage_ball *ball,
+                      int32_t count, struct cage_triangulation *out)
 {
     size_t mark = arena->used;
-    int32_t sites = dim + 1 + count;
-    struct cage_site *site = cage_arena_take(arena, (size_t)sites, sizeof *site);
-    int32_t *input = cage_arena_take(arena, (size_t)sites, sizeof *input);
-    if (!site || !input || cage_order(arena, dim, ball, count, input + dim + 1) != CAGE_OK) {
+    struct cage_triangulation t = {NULL, NULL, NULL, shortcuts, dim, dim + 1 + count, 0};
+    t.site = cage_arena_take(arena, (size_t)t.sites, sizeof *t.site);
+    t.ball = cage_arena_take(arena, (size_t)t.sites, sizeof *t.ball);
+    if (!t.site || !t.ball || cage_order(arena, dim, ball, count, t.ball + dim + 1) != CAGE_OK) {
         cage_arena_release(arena, mark);
-        arena->needed = mark + bytes_expected(dim, sites);
+        arena->needed = mark + bytes_expected(&t);
         return CAGE_ERROR_MEMORY;
     }
-    make_sentinels(dim, site);
+    make_sentinels(dim, t.site);
     for (int32_t i = 0; i <= dim; i++)
-        input[i] = -1;
-    for (int32_t i = dim + 1; i < sites; i++) {
-        const cage_ball *from = &ball[input[i]];
-        site[i] = make_site(from->x, from->y, from->z, from->r, (int64_t)from->r * from->r);
+        t.ball[i] = -1;
+    for (int32_t i = dim + 1; i < t.sites; i++) {
+        const cage_ball *from = &ball[t.ball[i]];
+        t.site[i] = make_site(from->x, from->y, from->z, from->r, (int64_t)from->r * from->r);
     }
-    struct cage_triangulation t = {site, input, NULL, dim, sites, 0};
     const struct cage_simplex first = {{0, 1, 2, dim == 2 ? 0 : 3}, {CAGE_HULL, CAGE_HULL, CAGE_HULL, CAGE_HULL}};
     int32_t error = complete(arena, &t, &first, 1, dim + 1, mark, true);
     if (error == CAGE_OK)
@@ -409,11 +334,35 @@ int32_t cage_delaunay(struct cage_arena *arena, int32_t dim, const cage_ball *ba
     return error;
 }
 
+int32_t cage_delaunay_drop_hidden(struct cage_arena *arena, struct cage_triangulation *t)
+{
+    size_t mark = arena->used;
+    int32_t kept = 0, *now = cage_arena_take(arena, (size_t)t->sites, sizeof *now);
+    if (!now)
+        return CAGE_ERROR_MEMORY;
+    memset(now, 0, (size_t)t->sites * sizeof *now);
+    for (int32_t s = 0; s < t->simplices; s++)
+        for (int32_t i = 0; i <= t->dim; i++)
+            now[t->simplex[s].v[i]] = 1;
+    for (int32_t i = 0; i < t->sites; i++) {
+        t->site[kept] = t->site[i];
+        t->ball[kept] = t->ball[i];
+        kept += i <= t->dim ? 1 : now[i];
+        now[i] = kept - 1;
+    }
+    for (int32_t s = 0; s < t->simplices; s++)
+        for (int32_t i = 0; i <= t->dim; i++)
+            t->simplex[s].v[i] = now[t->simplex[s].v[i]];
+    t->sites = kept;
+    cage_arena_release(arena, mark);
+    return CAGE_OK;
+}
+
 int32_t cage_delaunay_extend(struct cage_arena *arena, const struct cage_triangulation *t, const struct cage_site *const *more,
                              int32_t count, struct cage_triangulation *out)
 {
     size_t mark = arena->used;
-    struct cage_triangulation made = {NULL, NULL, NULL, t->dim, t->sites + count, 0};
+    struct cage_triangulation made = {NULL, NULL, NULL, t->shortcuts, t->dim, t->sites + count, 0};
     made.site = cage_arena_take(arena, (size_t)made.sites, sizeof *made.site);
     if (!made.site)
         return CAGE_ERROR_MEMORY;

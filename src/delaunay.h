@@ -5,6 +5,7 @@
 #include "arena.h"
 #include "cage.h"
 #include "predicate.h"
+#include "shortcuts.h"
 
 /* A positive simplex. v: dim + 1 sites. twin[i] = 4 s + j: facet i (opposite v[i]) is facet j of simplex s; CAGE_HULL
  * for a facet of the sentinels' own simplex. In the plane entry 3 is unused. */
@@ -22,6 +23,7 @@ struct cage_triangulation {
     struct cage_site *site;
     int32_t *ball; /* ball[i]: index of site i in the input, -1 for a sentinel */
     struct cage_simplex *simplex;
+    const struct cage_shortcuts *shortcuts; /* that were used, or null */
     int32_t dim;
     int32_t sites; /* dim + 1 + count */
     int32_t simplices;
@@ -30,8 +32,11 @@ struct cage_triangulation {
 /* Triangulate count balls, |centre coordinate| <= CAGE_REACH, 0 <= r <= CAGE_REACH (not checked). The result
  * is taken from the arena, everything else given back; on CAGE_ERROR_MEMORY all is, and arena->needed says how large
  * the arena would have to be (a guess in space). */
-int32_t cage_delaunay(struct cage_arena *arena, int32_t dim, const cage_ball *ball, int32_t count,
-                      struct cage_triangulation *out);
+int32_t cage_delaunay(struct cage_arena *arena, const struct cage_shortcuts *shortcuts, int32_t dim, const cage_ball *ball,
+                      int32_t count, struct cage_triangulation *out);
+
+/* Drop the hidden sites, which add nothing to the union; the others keep their order. Needs scratch of the arena. */
+int32_t cage_delaunay_drop_hidden(struct cage_arena *arena, struct cage_triangulation *t);
 
 /* Insert more sites after those of a triangulation (one of cage_delaunay, not itself extended). Simplices that remain
  * keep their places; a place with v[0] = -1 is no simplex; the others are new and have a new site. out->ball is null. */

@@ -183,32 +183,6 @@ bool cage_centre_point(int32_t dim, const struct cage_centre *centre, int32_t at
     return true;
 }
 
-/* About a / b, to the nearest: off by 1/2 and (for a result within 2^30) by another 1/2 at most, in space by 2^-11; INT64_MAX: too
- * large. */
-static int64_t quotient(cage_i128 a, cage_i128 b)
-{
-    cage_i128 size = cage_i128_abs(a);
-    uint32_t of_a = cage_u128_bits(size), of_b = cage_u128_bits(b), bits = of_a > of_b ? of_a : of_b, drop = bits > 62 ? bits - 62 : 0;
-    int64_t top = (int64_t)cage_i128_low(cage_i128_shr(size, drop)), bottom = (int64_t)cage_i128_low(cage_i128_shr(b, drop));
-    if (drop > 0 && bottom >> 31 == 0)
-        return INT64_MAX;
-    int64_t to = (int64_t)cage_u64_divide((uint64_t)top + (uint64_t)bottom / 2, (uint64_t)bottom); /* what was dropped: a result / bottom at most */
-    return cage_i128_negative(a) ? -to : to;
-}
-
-bool cage_centre_near(int32_t dim, const struct cage_centre *centre, int32_t at[3])
-{
-    const int32_t base[3] = {centre->base->x, centre->base->y, centre->base->z};
-    int32_t reach = dim == 2 ? CAGE_REACH_2D : CAGE_REACH_3D;
-    for (int32_t k = 0; k < 3; k++) {
-        int64_t by = quotient(centre->offset[k], centre->denominator);
-        if (by == INT64_MAX || base[k] + by < -reach || base[k] + by > reach)
-            return false;
-        at[k] = (int32_t)(base[k] + by);
-    }
-    return true;
-}
-
 int32_t cage_length(const int32_t v[3])
 {
     int64_t square = 0; /* <= 3 2^58 */

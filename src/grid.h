@@ -58,9 +58,6 @@ int32_t cage_displacement_within(const struct cage_corners *corners, const int32
 /* The grid point nearest to an orthocentre, off by at most 1/2 on each axis; false: it is beyond CAGE_REACH. */
 bool cage_centre_point(int32_t dim, const struct cage_centre *centre, int32_t at[3]);
 
-/* The same, less than 1.5 from it, and found sooner. */
-bool cage_centre_near(int32_t dim, const struct cage_centre *centre, int32_t at[3]);
-
 /* |v| rounded up, entries at most 2^29. */
 int32_t cage_length(const int32_t v[3]);
 

@@ -68,7 +68,7 @@ int32_t cage_mixture_make(struct cage_arena *arena, const struct cage_slice *c, 
         return cage_delaunay_extend(arena, t, vertex, count, &m->t);
     for (int32_t i = 0; i < count; i++)
         ball[near + i] = ball_of(vertex[i]);
-    return cage_delaunay(arena, t->dim, ball, near + count, &m->t);
+    return cage_delaunay(arena, t->shortcuts, t->dim, ball, near + count, &m->t);
 }
 
 bool cage_mixture_is_new(const struct cage_mixture *m, int32_t s)

@@ -85,7 +85,7 @@ enum { AWAY = 0, VISITED = 1 };
 enum { SEARCHED = 128 };
 
 /* The simplices of d that K's bounds meet, at *out: they hang together by facets, and one of them holds a point of K, which was
- * rounded by less than 1.5. Returns how many; 0: there may be many; or an error. */
+ * rounded by 1/2 on each axis. Returns how many; 0: there may be many; or an error. */
 static int32_t find_around(struct cage_arena *arena, const struct cage_overlap *o, uint32_t *code, int32_t **out)
 {
     const struct cage_triangulation *t = &o->d->t;
@@ -96,7 +96,7 @@ static int32_t find_around(struct cage_arena *arena, const struct cage_overlap *
     if (!seen || !queue)
         return CAGE_ERROR_MEMORY;
     memset(seen, AWAY, (size_t)t->simplices);
-    cage_bounds_widen(t->dim, &around, 4); /* along x + y + z: 1.5 root(3) */
+    cage_bounds_widen(t->dim, &around, 2); /* along x + y + z: 3/2 */
     queue[length++] = cage_delaunay_locate(t, o->c->orthoball[region->first].at, 0);
     seen[queue[0]] = VISITED;
     for (int32_t n = 0; n < length; n++)

@@ -27,26 +27,45 @@ static const struct cage_site *vertex_of(const struct cage_triangulation *t, int
     return &t->site[t->simplex[s].v[i]];
 }
 
-/* Where the orthocentre is, about, and a radius around that: at least as large as the root of the power. */
+/* The power of the ball's centre x to a vertex z of its simplex; *from: how far it is from there, at most. Differences < 2^29. */
+static int64_t power_of(const struct cage_triangulation *t, const struct cage_orthoball *ball, int64_t *from)
+{
+    const struct cage_site *z = vertex_of(t, ball->simplex, 0);
+    const int32_t by[3] = {ball->at[0] - z->x, ball->at[1] - z->y, ball->at[2] - z->z};
+    int64_t power = -(int64_t)z->r * z->r;
+    *from = 0;
+    for (int32_t k = 0; k < 3; k++) {
+        *from += by[k] < 0 ? -by[k] : by[k];
+        power += (int64_t)by[k] * by[k];
+    }
+    return power;
+}
+
+/* The orthocentre is less than 1 from x, so its power is at most (|x - z| + 1)^2 - r^2. */
 void cage_orthoball_of(const struct cage_triangulation *t, int32_t s, struct cage_orthoball *out)
 {
     const struct cage_site *v[4];
     struct cage_centre centre;
+    int64_t from, power;
     out->simplex = s;
     out->radius = -1;
     if (cage_simplex_outer(t, s))
         return;
     cage_simplex_sites(t, s, v);
     cage_orthocentre(t->dim, v, &centre);
-    if (!cage_centre_near(t->dim, &centre, out->at))
+    if (!cage_centre_point(t->dim, &centre, out->at))
         return;
-    int64_t from[3] = {out->at[0] - v[0]->x, out->at[1] - v[0]->y, out->at[2] - v[0]->z}, sum = 0, square = 0; /* < 2^29 */
-    for (int32_t k = 0; k < 3; k++) {
-        sum += from[k] < 0 ? -from[k] : from[k];
-        square += from[k] * from[k];
-    }
-    int64_t power = square + 3 * sum + 3 - (int64_t)v[0]->r * v[0]->r; /* (|from| + 1.5)^2 and less */
-    out->radius = (power > 0 ? (int32_t)cage_u128_root(cage_i128_of(power)) : 0) + 3; /* < 2^30 */
+    power = power_of(t, out, &from);
+    power += 2 * from + 1;
+    out->radius = (power > 0 ? (int32_t)cage_u128_root(cage_i128_of(power)) : 0) + 2; /* < 2^30 */
+}
+
+/* The power p of the orthocentre is at least (|x - z| - 1)^2 - r^2. Each ball has a power of p or more there, so it ends more than 1
+ * from there, and does not hold x, if p > 2 R + 1 for its radius R. */
+bool cage_orthoball_is_off(const struct cage_triangulation *t, const struct cage_orthoball *ball, int32_t radius)
+{
+    int64_t from, power = power_of(t, ball, &from);
+    return power - 2 * from > 2 * (int64_t)radius + 1;
 }
 
 /* ---- along fixed directions ------------------------------------------------------------------------------ */

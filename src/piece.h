@@ -14,7 +14,7 @@ struct cage_bounds {
 
 enum { CAGE_ALONG_X = 0, CAGE_ALONG_Y = 1, CAGE_ALONG_Z = 4 };
 
-/* A ball that holds them, about a grid point less than 1.5 from the orthocentre; radius -1: none was found. */
+/* A ball that holds them, about the grid point nearest to the orthocentre; radius -1: none was found. */
 struct cage_orthoball {
     int32_t simplex;
     int32_t at[3];
@@ -40,6 +40,9 @@ struct cage_piece {
 
 /* Of free simplex s. */
 void cage_orthoball_of(const struct cage_triangulation *t, int32_t s, struct cage_orthoball *out);
+
+/* Is the ball's centre surely off all balls of the triangulation, if none is larger than that? */
+bool cage_orthoball_is_off(const struct cage_triangulation *t, const struct cage_orthoball *ball, int32_t radius);
 
 /* What its simplex and the ball bound. */
 void cage_bounds_of(const struct cage_triangulation *t, const struct cage_orthoball *ball, struct cage_bounds *out);

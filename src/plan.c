@@ -48,7 +48,7 @@ enum { SURVEY_HEAD = sizeof(struct cage_survey), SHEET_BYTES = sizeof(struct cag
 enum { SURVEY_BYTES_HOLDS = 1 / (SURVEY_HEAD <= 512 && SHEET_BYTES <= 32 ? 1 : 0) };
 
 /* Of an atlas: for each ball of a slice about so many, and so many for the slice. */
-enum { BYTES_PER_BALL_2D = 33, BYTES_PER_BALL_3D = 26, BYTES_PER_SLICE = 256 };
+enum { BYTES_PER_BALL_2D = 24, BYTES_PER_BALL_3D = 22, BYTES_PER_SLICE = 256 };
 
 size_t cage_survey_size(const cage_scene *scene, const cage_plan *plan)
 {
@@ -64,8 +64,8 @@ size_t cage_survey_size(const cage_scene *scene, const cage_plan *plan)
         if (plan->side >> side & 1) /* < 2^24 2^5 2^28 */
             bytes += slices * (ball * (uint64_t)objects * (uint64_t)obstacles + BYTES_PER_SLICE);
     }
-    /* What is taken in the beginning is of the facts, which have half of the block then. */
-    bytes += sizeof(struct cage_survey) + cage_proof_size(scene, &limits) +
+    /* What is taken in the beginning is of the facts, which have half of the block then; the other facts are the atlas. */
+    bytes += sizeof(struct cage_survey) + cage_proof_size(scene, &limits) - CAGE_FACTS_BYTES +
              2 * (CAGE_SIDES * (cells + CAGE_CELL_ROOT) * sizeof(struct cage_sheet) +
                   (uint64_t)scene->obstacles.inner_count * sizeof(cage_ball));
     return bytes > SIZE_MAX ? SIZE_MAX : (size_t)bytes;
@@ -80,6 +80,8 @@ int32_t cage_survey_begin(cage_survey **survey, const cage_scene *scene, const c
     int32_t error = cage_scene_check(scene);
     if (error == CAGE_OK)
         error = limits_of(scene, plan, &limits);
+    if (error == CAGE_OK)
+        error = cage_limits_check(&limits, scene->dim);
     if (error != CAGE_OK)
         return error;
     cage_arena_init(&arena, memory, bytes);
@@ -88,7 +90,8 @@ int32_t cage_survey_begin(cage_survey **survey, const cage_scene *scene, const c
         return CAGE_ERROR_MEMORY;
     memset(made, 0, sizeof *made);
     made->plan = *plan;
-    error = cage_proof_begin_all(&made->proof, scene, &limits, arena.base + arena.used, arena.size - arena.used);
+    error = cage_proof_begin(&made->proof, scene, NULL, NULL, &limits, &cage_all_shortcuts, arena.base + arena.used,
+                             arena.size - arena.used);
     for (int32_t side = 0; side < CAGE_SIDES && error == CAGE_OK; side++) {
         struct cage_graph *graph = &made->proof->graph;
         made->sheet[side] = cage_arena_take(graph->arena, (size_t)graph->capacity, sizeof *made->sheet[side]);

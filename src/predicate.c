@@ -60,23 +60,33 @@ void cage_orthocentre(int32_t dim, const struct cage_site *const v[4], struct ca
         orthocentre(3, v, centre);
 }
 
+/* Bits to drop so that less than so many are left of each. */
+static uint32_t excess(const cage_i128 a[3], cage_i128 b, uint32_t bits)
+{
+    cage_i128 all = cage_i128_abs(b);
+    for (int32_t k = 0; k < 3; k++) {
+        cage_i128 size = cage_i128_abs(a[k]);
+        all = cage_i128_make(cage_i128_high(all) | cage_i128_high(size), cage_i128_low(all) | cage_i128_low(size));
+    }
+    uint32_t has = cage_u128_bits(all);
+    return has > bits ? has - bits : 0;
+}
+
+/* What is left of |a|. */
+static uint64_t top(cage_i128 a, uint32_t drop) { return cage_i128_low(cage_i128_shr(cage_i128_abs(a), drop)); }
+
 int32_t cage_norm_compare(const cage_i128 n[3], cage_i128 g)
 {
-    cage_i128 all = g, size[3];
-    for (int32_t k = 0; k < 3; k++) {
-        size[k] = cage_i128_abs(n[k]);
-        all = cage_i128_make(cage_i128_high(all) | cage_i128_high(size[k]), cage_i128_low(all) | cage_i128_low(size[k]));
-    }
-    uint32_t bits = cage_u128_bits(all), shift = bits > 61 ? bits - 61 : 0;
-    /* Truncated to t < 2^61: the true value lies in [t, t + 1) 2^shift. The squares and their sum < 2^124. */
+    /* Truncated to t < 2^61: the true value lies in [t, t + 1) 2^drop. The squares and their sum < 2^124. */
+    uint32_t drop = excess(n, g, 61);
     cage_i128 least = cage_i128_of(0);
-    uint64_t slack = 3; /* of three squares: the sum of 2 t + 1 < 6 2^61 + 3 < 2^64 */
+    uint64_t t, slack = 3; /* of three squares: the sum of 2 t + 1 < 6 2^61 + 3 < 2^64 */
     for (int32_t k = 0; k < 3; k++) {
-        uint64_t t = cage_i128_low(cage_i128_shr(size[k], shift));
+        t = top(n[k], drop);
         least = cage_i128_add(least, cage_u64_mul(t, t));
         slack += 2 * t;
     }
-    uint64_t t = cage_i128_low(cage_i128_shr(g, shift));
+    t = top(g, drop);
     cage_i128 other = cage_u64_mul(t, t);
     if (cage_i128_compare(least, cage_i128_add(other, cage_i128_make(0, 2 * t + 1))) >= 0)
         return 1;
@@ -94,10 +104,12 @@ cage_i128 cage_simplex_volume(int32_t dim, const struct cage_site *const v[4])
     if (dim == 2)
         return cage_i128_of(cage_cross(v[0], v[1], v[2]));
     int32_t a[3], b[3], c[3];
+    int64_t normal[3];
     cage_difference(v[1], v[0], a);
     cage_difference(v[2], v[0], b);
     cage_difference(v[3], v[0], c);
-    return cage_triple(a, b, c);
+    cross(b, c, normal);
+    return cage_mix(normal[0], a[0], normal[1], -a[1], normal[2], a[2]);
 }
 
 /* p = |offset / denominator|^2 - r_0^2. */
@@ -105,14 +117,6 @@ static int32_t centre_power(const struct cage_centre *centre)
 {
     /* < 2^63 2^29 in the plane, 2^80 2^24 in space */
     return cage_norm_compare(centre->offset, cage_i128_scale(centre->denominator, centre->base->r));
-}
-
-bool cage_centre_is_wide(const struct cage_centre *centre, int32_t radius)
-{
-    int64_t square = (int64_t)centre->base->r * centre->base->r + 2 * (int64_t)radius + 1; /* < 2^59 */
-    int64_t root = (int64_t)cage_u128_root(cage_i128_of(square)); /* < r + 2^15.6; times the denominator < 2^93, in space 2^105 */
-    root += root * root < square;
-    return cage_norm_compare(centre->offset, cage_i128_scale(centre->denominator, root)) > 0;
 }
 
 /* No point in common: squares <= 12 M^2 in space. */
@@ -135,24 +139,15 @@ int32_t cage_simplex_power(int32_t dim, const struct cage_site *const v[4])
     return centre_power(&centre);
 }
 
-static int64_t top(cage_i128 a, uint32_t drop)
-{
-    int64_t size = (int64_t)cage_i128_low(cage_i128_shr(cage_i128_abs(a), drop));
-    return cage_i128_negative(a) ? -size : size;
-}
-
 /* The sign of the sum of big_k * little_k, |little| < 2^54: from the top 62 bits of the big ones, each term then off by less than
  * |little_k|, and if these do not tell, from all. */
 static int32_t mixed_sign(const cage_i128 big[3], const int64_t little[3])
 {
-    cage_i128 all = cage_i128_of(0), sum = all, error = all;
+    uint32_t drop = excess(big, big[0], 62);
+    cage_i128 sum = cage_i128_of(0), error = sum;
     for (int32_t k = 0; k < 3; k++) {
-        cage_i128 size = cage_i128_abs(big[k]);
-        all = cage_i128_make(cage_i128_high(all) | cage_i128_high(size), cage_i128_low(all) | cage_i128_low(size));
-    }
-    uint32_t bits = cage_u128_bits(all), drop = bits > 62 ? bits - 62 : 0;
-    for (int32_t k = 0; k < 3; k++) {
-        cage_i128_add_product(&sum, little[k], top(big[k], drop));
+        int64_t size = (int64_t)top(big[k], drop);
+        cage_i128_add_product(&sum, little[k], cage_i128_negative(big[k]) ? -size : size);
         error = cage_i128_add(error, cage_i128_of(little[k] < 0 ? -little[k] : little[k]));
     }
     if (cage_i128_compare(cage_i128_abs(sum), error) > 0)

@@ -132,10 +132,6 @@ struct cage_centre {
 
 void cage_orthocentre(int32_t dim, const struct cage_site *const v[4], struct cage_centre *centre);
 
-/* Is the power of the orthocentre, p, surely more than 2 radius + 1? If no ball is larger than that, every point less than
- * 1 from the orthocentre is then off all balls: these have a power of p or more there, so |z - o|^2 >= p + r^2 > (r + 1)^2. */
-bool cage_centre_is_wide(const struct cage_centre *centre, int32_t radius);
-
 /* The sign of p, the power of its orthocentre: is the positive simplex free? Degree 6 (plane) or 8 (space). No sentinels. */
 int32_t cage_simplex_power(int32_t dim, const struct cage_site *const v[4]);
 

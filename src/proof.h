@@ -60,12 +60,24 @@ enum { CAGE_SECOND_CELLS = 8 };
 /* The level to begin with where the limits name none. */
 int32_t cage_proof_first_level(const cage_scene *scene, const cage_limits *limits, bool all);
 
+/* Of these, facts beside those of each cell. */
+enum { CAGE_FACTS_BYTES = 16384 };
+
 /* What one search takes, as a rule: cells, facts, and slices of which half the balls or more are covered, or apart. */
 uint64_t cage_proof_size(const cage_scene *scene, const cage_limits *limits);
 
-/* The state of a proof whose cells are all wanted; cells 0 and 1 are not. */
-int32_t cage_proof_begin_all(struct cage_proof **proof, const cage_scene *scene, const cage_limits *limits, void *memory,
-                             size_t bytes);
+int32_t cage_limits_check(const cage_limits *limits, int32_t dim);
+
+/* Scene, poses (goal may be null) and limits, these as given or (null) the default ones of that side. */
+int32_t cage_proof_check(const cage_scene *scene, const cage_pose *start, const cage_pose *goal, const cage_limits *given,
+                         int32_t side, cage_limits *limits);
+
+/* The first state of one search, for what was checked. Start null: all cells are wanted; cells 0 and 1 are not. */
+int32_t cage_proof_begin(struct cage_proof **proof, const cage_scene *scene, const cage_pose *start, const cage_pose *goal,
+                         const cage_limits *limits, const struct cage_shortcuts *shortcuts, void *memory, size_t bytes);
+
+/* What is left of the block is for facts, slices and work. */
+void cage_proof_share_out(struct cage_proof *proof);
 
 /* The side that it searches now, or -1. */
 int32_t cage_proof_searching(const struct cage_proof *proof);
@@ -93,7 +105,7 @@ void cage_proof_choose_origin(struct cage_proof *proof, int32_t side);
 /* The inner side can do no more: outer searches over all cells, cut evenly where they have come. */
 void cage_proof_last_resort(struct cage_proof *proof, int32_t reason);
 
-/* After some steps: the result so far, and what is told of it. */
+/* After some steps: this search's result so far becomes the total, and what is told of it. */
 int32_t cage_proof_report(struct cage_proof *proof);
 
 /* Is there an outer side to search? */
@@ -109,15 +121,13 @@ bool cage_proof_is_done(const struct cage_proof *proof);
 /* Has its outer side had its share of the steps? */
 bool cage_proof_spares_outer(const struct cage_proof *proof);
 
-/* Add up the results of both searches. */
-void cage_proof_total(struct cage_proof *proof);
-
 /* After a step that failed for lack of memory: was it work, facts or path that found none, and did they get some of the store's,
  * which is emptied? Then the step can be taken again: so far it has done nothing, but that the path may have become longer. */
 bool cage_proof_make_room(struct cage_proof *proof);
 
-/* The block to try next, after CAGE_ERROR_MEMORY. */
+/* The block to try next after CAGE_ERROR_MEMORY, for this search alone, or (the first one) for both. */
 uint64_t cage_proof_needed(const struct cage_proof *proof);
+uint64_t cage_prove_needed(const struct cage_proof *proof);
 
 /* Which ball of the object stands for which where cell b, turned if need be, is a neighbour of a: see cage_glue_matched. */
 const int32_t *cage_proof_match(const struct cage_proof *proof, int32_t side, int32_t a, int32_t b);

@@ -132,6 +132,15 @@ int32_t cage_proof_step_inner(struct cage_proof *proof)
     }
 }
 
+int32_t cage_proof_report(struct cage_proof *proof)
+{
+    proof->result.peak_bytes = proof->arena.peak + proof->scratch.peak;
+    proof->total = proof->result;
+    if (proof->error == CAGE_ERROR_MEMORY)
+        proof->total.needed_bytes = cage_proof_needed(proof);
+    return proof->error != CAGE_OK ? proof->error : cage_proof_is_done(proof);
+}
+
 int32_t cage_prove_run_inner(cage_proof *proof, int64_t steps)
 {
     if (!proof || proof->second || proof->limits.side != CAGE_SIDE_INNER)

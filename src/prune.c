@@ -204,20 +204,22 @@ static bool keeps(const struct cage_raster *raster, int32_t dim, const cage_ball
     return false;
 }
 
-int32_t cage_raster_keep(const struct cage_raster *raster, int32_t dim, cage_ball *ball, int32_t *of, int32_t count)
+/* Keep the balls that may touch a point that is not in a covered pixel, and their entries of `of`; how many are left. */
+static int32_t keep_some(const struct cage_raster *raster, int32_t dim, cage_ball *ball, int32_t *of, int32_t count,
+                         struct stamp *stamp)
 {
-    struct stamp stamp = {-1, 0, {0}};
     int32_t kept = 0;
     for (int32_t i = 0; i < count; i++)
-        if (!raster->used || (!blocks_cover(raster, dim, &ball[i]) && keeps(raster, dim, &ball[i], &stamp))) {
+        if (!blocks_cover(raster, dim, &ball[i]) && keeps(raster, dim, &ball[i], stamp)) {
             ball[kept] = ball[i];
             of[kept++] = of[i];
         }
     return kept;
 }
 
-int32_t cage_raster_make(struct cage_arena *arena, int32_t dim, const cage_ball *ball, int32_t count, struct cage_raster *raster)
+int32_t cage_prune(struct cage_arena *arena, int32_t dim, cage_ball *ball, int32_t *of, int32_t *number, struct cage_raster *raster)
 {
+    int32_t count = *number;
     raster->used = false;
     if (count == 0)
         return CAGE_OK;
@@ -239,13 +241,13 @@ int32_t cage_raster_make(struct cage_arena *arena, int32_t dim, const cage_ball 
     mark_every(raster, dim, ball, count, 0, FIRST, &stamp);
     for (int32_t pace = FIRST; pace > 1; pace /= 2)
         mark_every(raster, dim, ball, count, pace / 2, pace, &stamp);
+    *number = keep_some(raster, dim, ball, of, count, &stamp);
     return CAGE_OK;
 }
 
-bool cage_raster_covers(const struct cage_raster *raster, int32_t dim, const struct cage_centre *centre)
+/* Does the orthocentre lie in a covered pixel? */
+static bool is_covered(const struct cage_raster *raster, int32_t dim, const struct cage_centre *centre)
 {
-    if (!raster->used)
-        return false;
     const int32_t base[3] = {centre->base->x, centre->base->y, centre->base->z};
     int32_t at[3] = {0, 0, 0};
     for (int32_t k = 0; k < dim; k++) {
@@ -257,4 +259,24 @@ bool cage_raster_covers(const struct cage_raster *raster, int32_t dim, const str
         at[k] = (int32_t)to;
     }
     return row_of(raster, at[1], at[2])[at[0] >> 6] >> (at[0] & 63) & 1;
+}
+
+int32_t cage_drop_phantoms(struct cage_arena *arena, const struct cage_triangulation *t, const struct cage_raster *raster,
+                           struct cage_components *c)
+{
+    int32_t *now = cage_arena_take(arena, (size_t)c->count, sizeof *now);
+    if (!now)
+        return CAGE_ERROR_MEMORY;
+    if (!raster->used)
+        return CAGE_OK;
+    now[CAGE_OUTSIDE] = CAGE_OUTSIDE;
+    for (int32_t k = 1; k < c->count; k++) {
+        const struct cage_site *v[4];
+        struct cage_centre centre;
+        cage_simplex_sites(t, c->deep[k], v);
+        cage_orthocentre(t->dim, v, &centre);
+        now[k] = is_covered(raster, t->dim, &centre) ? CAGE_COVERED : k;
+    }
+    cage_components_drop(t, now, c);
+    return CAGE_OK;
 }

@@ -4,13 +4,14 @@
  * kept iff it may meet a pixel that is not covered. Then, exactly: every component of the complement of all balls is
  * a component of the complement of the kept ones. (It lies in uncovered closed pixels; on these the two unions agree;
  * and the border of a covered pixel lies in a ball that meets its uncovered neighbour too, hence is kept, so nothing
- * leaks across.) The other components of the kept balls lie inside covered pixels: cage_raster_covers tells these, by
+ * leaks across.) The other components of the kept balls lie inside covered pixels: cage_drop_phantoms tells these, by
  * any one of their points. */
 #ifndef CAGE_PRUNE_H
 #define CAGE_PRUNE_H
 
 #include "arena.h"
 #include "cage.h"
+#include "component.h"
 #include "predicate.h"
 
 struct cage_raster {
@@ -25,13 +26,12 @@ struct cage_raster {
     bool used;       /* false: nothing is covered */
 };
 
-/* Lay the raster over count balls with |centre| and radius up to 2^28, and mark what is covered. */
-int32_t cage_raster_make(struct cage_arena *arena, int32_t dim, const cage_ball *ball, int32_t count, struct cage_raster *raster);
+/* Lay the raster over *count balls with |centre| and radius up to 2^28, and keep those that may touch a point that is not in a
+ * covered pixel, and their entries of `of`; *count becomes their number. The raster stays in the arena. */
+int32_t cage_prune(struct cage_arena *arena, int32_t dim, cage_ball *ball, int32_t *of, int32_t *count, struct cage_raster *raster);
 
-/* Keep the balls that may touch a point that is not in a covered pixel, and their entries of `of`; how many are left. */
-int32_t cage_raster_keep(const struct cage_raster *raster, int32_t dim, cage_ball *ball, int32_t *of, int32_t count);
-
-/* Does the orthocentre lie in a covered pixel? */
-bool cage_raster_covers(const struct cage_raster *raster, int32_t dim, const struct cage_centre *centre);
+/* Components of the kept balls that are none of all balls become covered; the others move up. Takes scratch from the arena. */
+int32_t cage_drop_phantoms(struct cage_arena *arena, const struct cage_triangulation *t, const struct cage_raster *raster,
+                           struct cage_components *c);
 
 #endif

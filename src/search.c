@@ -16,7 +16,7 @@ int32_t cage_search_make(const struct cage_proof *proof, struct cage_arena *aren
 
 static int32_t take_or_make(struct cage_proof *proof, int32_t side, int32_t cell, struct cage_slice *slice)
 {
-    const struct cage_unit *unit = proof->ahead ? cage_ahead_find(proof->ahead, proof, side, cell, -1, 0, &proof->scratch) : NULL;
+    const struct cage_unit *unit = proof->ahead ? proof->ahead->find(proof->ahead, proof, side, cell, -1, 0, &proof->scratch) : NULL;
     proof->taken = unit;
     if (!unit)
         return cage_search_make(proof, &proof->scratch, side, cell, slice);
@@ -63,7 +63,7 @@ static int32_t build_slice(struct cage_proof *proof, int32_t side, int32_t cell,
         if (error == CAGE_OK) {
             proof->result.slices[side]++;
             proof->result.balls[side] += slice.balls;
-            proof->result.inserted[side] += slice.t.sites - slice.t.dim - 1;
+            proof->result.inserted[side] += slice.inserted;
         } else { /* as if it had not been tried */
             facts->nodes = 0;
             cage_arena_release(&proof->arena, before);
@@ -128,7 +128,7 @@ static int32_t glue_node(struct cage_proof *proof, int32_t side, const struct ca
         return error;
     size_t mark = proof->scratch.used;
     const struct cage_unit *unit =
-        proof->ahead ? cage_ahead_find(proof->ahead, proof, side, a, b, node->component, &proof->scratch) : NULL;
+        proof->ahead ? proof->ahead->find(proof->ahead, proof, side, a, b, node->component, &proof->scratch) : NULL;
     struct cage_touch *touch = unit ? unit->touch : NULL;
     int32_t count = unit ? unit->count : 0, mixed = unit ? unit->mixed : 0;
     if (!unit)

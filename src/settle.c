@@ -6,6 +6,7 @@
  * is in both: off all balls of c and in a simplex labelled K, off all balls of d (not all of them are in the mixture) and in
  * a simplex labelled L. */
 #include "settle.h"
+#include "barrier.h"
 #include "mixture.h"
 #include "overlap.h"
 
@@ -105,8 +106,14 @@ static int32_t mix(struct cage_arena *arena, const struct cage_overlap *o, bool 
     return error;
 }
 
+/* Does the barrier prove it? Only asked if it is far, or not. */
+static bool is_proved_apart(const struct cage_view *view, int32_t k, int32_t l, bool far)
+{
+    return view->barrier && view->barrier->far == far && view->c->t.shortcuts->barrier_is_apart(view, k, l);
+}
+
 /* Where no known point tells: the barrier, pieces that may meet, those that do meet, a mixture. */
-static int32_t look_closer(struct cage_arena *arena, struct cage_view *view, int32_t k, int32_t l, bool *touching, int32_t x[3],
+static int32_t look_closer(struct cage_arena *arena, const struct cage_view *view, int32_t k, int32_t l, bool *touching, int32_t x[3],
                            int32_t *mixed)
 {
     const struct cage_slice *c = view->c, *d = view->d;
@@ -117,19 +124,19 @@ static int32_t look_closer(struct cage_arena *arena, struct cage_view *view, int
     o.d = turned ? c : d;
     o.k = turned ? l : k;
     o.l = turned ? k : l;
-    if (!view->far && cage_view_is_apart(view, k, l))
+    if (is_proved_apart(view, k, l, false))
         return CAGE_OK;
     int32_t error = cage_overlap_pieces(arena, &o);
     *touching = error == CAGE_OK && share_centre(&o, x);
     if (error == CAGE_OK && !*touching && o.pieces > 0)
         error = cage_overlap_boxes(arena, &o);
-    if (error != CAGE_OK || o.boxes == 0 || (view->far && o.met > CAGE_OVERLAP_MANY && cage_view_is_apart(view, k, l)))
+    if (error != CAGE_OK || o.boxes == 0 || (o.met > CAGE_OVERLAP_MANY && is_proved_apart(view, k, l, true)))
         return error;
     *mixed = 1;
     return mix(arena, &o, touching, x);
 }
 
-int32_t cage_settle(struct cage_arena *arena, struct cage_view *view, int32_t k, int32_t l, bool *touching, int32_t x[3],
+int32_t cage_settle(struct cage_arena *arena, const struct cage_view *view, int32_t k, int32_t l, bool *touching, int32_t x[3],
                     int32_t *mixed)
 {
     const struct cage_bounds *a = &view->c->region[k].bounds, *b = &view->d->region[l].bounds;

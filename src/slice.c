@@ -1,5 +1,6 @@
 /* slice: object balls, obstacle balls and one cell give collision balls, their triangulation and its components. */
 #include "slice.h"
+#include "border.h"
 #include "grid.h"
 #include "prune.h"
 
@@ -38,30 +39,6 @@ static int32_t collide(const struct cage_side *side, const struct cage_part *par
     return count;
 }
 
-/* Components of the kept balls that are none of all balls become covered; the others move up. */
-static void drop_phantoms(const struct cage_triangulation *t, const struct cage_raster *raster, struct cage_components *c,
-                          int32_t *now)
-{
-    int32_t count = 0;
-    for (int32_t k = 0; k < c->count; k++) {
-        bool phantom = false;
-        if (k != CAGE_OUTSIDE && raster->used) {
-            const struct cage_site *v[4];
-            struct cage_centre centre;
-            cage_simplex_sites(t, c->deep[k], v);
-            cage_orthocentre(t->dim, v, &centre);
-            phantom = cage_raster_covers(raster, t->dim, &centre);
-        }
-        now[k] = phantom ? CAGE_COVERED : count;
-        if (!phantom)
-            c->deep[count++] = c->deep[k];
-    }
-    c->count = count;
-    for (int32_t s = 0; s < t->simplices; s++)
-        if (c->label[s] >= 0)
-            c->label[s] = now[c->label[s]];
-}
-
 bool cage_slice_clear(const struct cage_slice *slice, const int32_t p[3])
 {
     for (int32_t i = slice->t.dim + 1; i < slice->t.sites; i++)
@@ -83,15 +60,15 @@ static void find_point(const struct cage_slice *slice, int32_t component, int32_
     region->known = 0;
     if (region->deep < 0)
         return;
-    const struct cage_site *v[4];
-    struct cage_centre centre;
-    cage_simplex_sites(&slice->t, region->deep, v);
-    cage_orthocentre(slice->t.dim, v, &centre);
-    if (!cage_centre_point(slice->t.dim, &centre, region->point))
+    struct cage_orthoball ball;
+    cage_orthoball_of(&slice->t, region->deep, &ball);
+    if (ball.radius < 0)
         return;
+    for (int32_t k = 0; k < 3; k++)
+        region->point[k] = ball.at[k];
     int32_t s = cage_delaunay_locate(&slice->t, region->point, region->deep);
     region->known = slice->label[s] == component &&
-                    (cage_centre_is_wide(&centre, largest) || cage_slice_clear(slice, region->point));
+                    (cage_orthoball_is_off(&slice->t, &ball, largest) || cage_slice_clear(slice, region->point));
 }
 
 /* Where the bounded components are: among the balls, so that the orthocentres are within CAGE_REACH too. */
@@ -136,44 +113,68 @@ static void find_outside_point(const struct cage_slice *slice)
 
 static size_t padded(size_t bytes) { return (bytes + CAGE_ALIGN - 1) / CAGE_ALIGN * CAGE_ALIGN; }
 
-/* The arrays of a slice in the order in which they are packed. */
-static void array_sizes(const struct cage_slice *s, size_t size[7])
+/* Of the arrays, as they are packed. */
+static size_t bytes_of(const struct cage_slice *s)
 {
-    size[0] = padded((size_t)s->t.sites * sizeof *s->t.site);
-    size[1] = padded((size_t)s->t.sites * sizeof *s->t.ball);
-    size[2] = padded((size_t)s->t.simplices * sizeof *s->t.simplex);
-    size[3] = padded((size_t)s->t.simplices * sizeof *s->label);
-    size[4] = padded((size_t)s->parts * sizeof *s->part);
-    size[5] = padded((size_t)s->regions * sizeof *s->region);
-    size[6] = padded((size_t)s->orthoballs * sizeof *s->orthoball);
+    return padded((size_t)s->t.sites * sizeof *s->t.site) + padded((size_t)s->t.sites * sizeof *s->t.ball) +
+           padded((size_t)s->t.simplices * sizeof *s->t.simplex) + padded((size_t)s->t.simplices * sizeof *s->label) +
+           padded((size_t)s->parts * sizeof *s->part) + padded((size_t)s->regions * sizeof *s->region) +
+           padded((size_t)s->orthoballs * sizeof *s->orthoball);
+}
+
+/* Copy an array to *at, which moves on. */
+static void *pack(unsigned char **at, const void *from, int32_t count, size_t size)
+{
+    void *to = *at;
+    memcpy(to, from, (size_t)count * size);
+    *at += padded((size_t)count * size);
+    return to;
 }
 
 void cage_slice_pack(const struct cage_slice *slice, void *block, struct cage_slice *out)
 {
-    size_t size[7];
     unsigned char *at = block;
-    array_sizes(slice, size);
     *out = *slice;
-    memcpy(at, slice->t.site, (size_t)slice->t.sites * sizeof *slice->t.site);
-    out->t.site = (struct cage_site *)(void *)at;
-    at += size[0];
-    memcpy(at, slice->t.ball, (size_t)slice->t.sites * sizeof *slice->t.ball);
-    out->t.ball = (int32_t *)(void *)at;
-    at += size[1];
-    memcpy(at, slice->t.simplex, (size_t)slice->t.simplices * sizeof *slice->t.simplex);
-    out->t.simplex = (struct cage_simplex *)(void *)at;
-    at += size[2];
-    memcpy(at, slice->label, (size_t)slice->t.simplices * sizeof *slice->label);
-    out->label = (int32_t *)(void *)at;
-    at += size[3];
-    memcpy(at, slice->part, (size_t)slice->parts * sizeof *slice->part);
-    out->part = (struct cage_part *)(void *)at;
-    at += size[4];
-    memcpy(at, slice->region, (size_t)slice->regions * sizeof *slice->region);
-    out->region = (struct cage_region *)(void *)at;
-    at += size[5];
-    memcpy(at, slice->orthoball, (size_t)slice->orthoballs * sizeof *slice->orthoball);
-    out->orthoball = (struct cage_orthoball *)(void *)at;
+    out->t.site = pack(&at, slice->t.site, slice->t.sites, sizeof *slice->t.site);
+    out->t.ball = pack(&at, slice->t.ball, slice->t.sites, sizeof *slice->t.ball);
+    out->t.simplex = pack(&at, slice->t.simplex, slice->t.simplices, sizeof *slice->t.simplex);
+    out->label = pack(&at, slice->label, slice->t.simplices, sizeof *slice->label);
+    out->part = pack(&at, slice->part, slice->parts, sizeof *slice->part);
+    out->region = pack(&at, slice->region, slice->regions, sizeof *slice->region);
+    out->orthoball = pack(&at, slice->orthoball, slice->orthoballs, sizeof *slice->orthoball);
+}
+
+static int32_t find_regions(struct cage_arena *arena, const struct cage_components *components, struct cage_slice *out)
+{
+    int32_t largest = 0;
+    out->label = components->label;
+    out->regions = components->count;
+    out->region = cage_arena_take(arena, (size_t)components->count, sizeof *out->region);
+    if (!out->region)
+        return CAGE_ERROR_MEMORY;
+    for (int32_t i = out->t.dim + 1; i < out->t.sites; i++)
+        largest = out->t.site[i].r > largest ? out->t.site[i].r : largest;
+    for (int32_t k = 0; k < components->count; k++) {
+        out->region[k].deep = components->deep[k];
+        out->region[k].size = 0;
+        if (k != CAGE_OUTSIDE)
+            find_point(out, k, largest);
+    }
+    find_outside_point(out);
+    for (int32_t s = 0; s < out->t.simplices; s++)
+        if (out->label[s] != CAGE_COVERED)
+            out->region[out->label[s]].size++;
+    return CAGE_OK;
+}
+
+/* The balls and their components, without those that are hidden. */
+static int32_t triangulate(struct cage_arena *arena, const struct cage_side *side, const cage_ball *ball, int32_t count,
+                           struct cage_slice *out, struct cage_components *components)
+{
+    int32_t error = cage_delaunay(arena, side->shortcuts, side->dim, ball, count, &out->t);
+    if (error == CAGE_OK)
+        error = cage_delaunay_drop_hidden(arena, &out->t);
+    return error == CAGE_OK ? cage_components(arena, &out->t, components) : error;
 }
 
 static int32_t make(struct cage_arena *arena, const struct cage_side *side, const struct cage_rotations *rotations,
@@ -189,50 +190,39 @@ static int32_t make(struct cage_arena *arena, const struct cage_side *side, cons
     place_parts(side, rotations, corners, out->part);
     int32_t count = collide(side, out->part, ball, of);
     struct cage_raster raster;
-    int32_t error = cage_raster_make(arena, side->dim, ball, count, &raster);
+    out->balls = count;
+    int32_t error = side->shortcuts ? side->shortcuts->prune(arena, side->dim, ball, of, &count, &raster) : CAGE_OK;
     if (error != CAGE_OK)
         return error;
-    int32_t kept = cage_raster_keep(&raster, side->dim, ball, of, count);
-    out->balls = count;
-    error = cage_delaunay(arena, side->dim, ball, kept, &out->t);
+    out->inserted = count;
+    out->whole = count == out->balls;
+    struct cage_components components;
+    size_t mark = arena->used;
+    error = triangulate(arena, side, ball, count, out, &components);
+    if (error == CAGE_OK && !side->shortcuts) {
+        int32_t kept = cage_border_first(&out->t, &components, ball, of, count);
+        if (kept < count) {
+            out->whole = false;
+            cage_arena_release(arena, mark);
+            out->inserted += kept;
+            error = triangulate(arena, side, ball, kept, out, &components);
+            if (error == CAGE_OK)
+                error = cage_border_drop(arena, &out->t, ball, kept, count, &components);
+        }
+    }
     if (error != CAGE_OK)
         return error;
     for (int32_t i = side->dim + 1; i < out->t.sites; i++)
         out->t.ball[i] = of[out->t.ball[i]];
-
-    struct cage_components components;
-    error = cage_components(arena, &out->t, &components);
-    if (error != CAGE_OK)
-        return error;
-    int32_t *now = cage_arena_take(arena, (size_t)components.count, sizeof *now);
-    if (!now)
-        return CAGE_ERROR_MEMORY;
-    drop_phantoms(&out->t, &raster, &components, now);
-    out->label = components.label;
-    out->regions = components.count;
-    out->region = cage_arena_take(arena, (size_t)components.count, sizeof *out->region);
-    if (!out->region)
-        return CAGE_ERROR_MEMORY;
-    int32_t largest = 0;
-    for (int32_t i = side->dim + 1; i < out->t.sites; i++)
-        largest = out->t.site[i].r > largest ? out->t.site[i].r : largest;
-    for (int32_t k = 0; k < components.count; k++) {
-        out->region[k].deep = components.deep[k];
-        out->region[k].size = 0;
-        if (k != CAGE_OUTSIDE)
-            find_point(out, k, largest);
-    }
-    find_outside_point(out);
-    for (int32_t s = 0; s < out->t.simplices; s++)
-        if (out->label[s] != CAGE_COVERED)
-            out->region[out->label[s]].size++;
-    error = find_orthoballs(arena, out);
-    if (error != CAGE_OK)
-        return error;
-    size_t size[7];
-    array_sizes(out, size);
-    out->bytes = size[0] + size[1] + size[2] + size[3] + size[4] + size[5] + size[6];
-    return CAGE_OK;
+    if (side->shortcuts)
+        error = side->shortcuts->drop_phantoms(arena, &out->t, &raster, &components);
+    if (error == CAGE_OK)
+        error = find_regions(arena, &components, out);
+    if (error == CAGE_OK)
+        error = find_orthoballs(arena, out);
+    if (error == CAGE_OK)
+        out->bytes = bytes_of(out);
+    return error;
 }
 
 int32_t cage_slice_make(struct cage_arena *arena, const struct cage_side *side, const struct cage_rotations *rotations,

@@ -41,7 +41,9 @@ struct cage_slice {
     int32_t orthoballs;
     int32_t regions;
     int32_t parts;
-    int64_t balls; /* collision balls, those left out included */
+    int64_t balls;    /* collision balls, those left out included, */
+    int64_t inserted; /* and how many were triangulated; hidden ones are no sites */
+    bool whole;       /* none was left out but those that are hidden */
     size_t bytes;
 };
 

@@ -74,7 +74,7 @@ static int32_t glue(struct cage_survey *survey, int32_t other)
         return error;
     size_t mark = proof->scratch.used;
     const struct cage_unit *unit =
-        proof->ahead ? cage_ahead_find(proof->ahead, proof, survey->side, survey->cell, other, CAGE_ALL, &proof->scratch) : NULL;
+        proof->ahead ? proof->ahead->find(proof->ahead, proof, survey->side, survey->cell, other, CAGE_ALL, &proof->scratch) : NULL;
     struct cage_touch *touch = unit ? unit->touch : NULL;
     int32_t count = unit ? unit->count : 0, mixed = unit ? unit->mixed : 0;
     if (!unit)

@@ -26,11 +26,12 @@ extern inline cage_i128 cage_i128_abs(cage_i128 a);
 extern inline int32_t cage_i128_compare(cage_i128 a, cage_i128 b);
 extern inline uint32_t cage_u128_bits(cage_i128 a);
 
-/* Bit by bit: the rest so far, twice that and the next bit of a. */
+/* Bit by bit: the rest so far, twice that and the next bit of a; first, of so many that it is less than b. */
 cage_i128 cage_u128_divide_by_bits(cage_i128 a, cage_i128 b, cage_i128 *remainder)
 {
-    cage_i128 rest = cage_i128_of(0), quotient = rest;
-    for (uint32_t bit = cage_u128_bits(a); bit-- > 0;) {
+    uint32_t of_a = cage_u128_bits(a), of_b = cage_u128_bits(b), bit = of_a >= of_b ? of_a - of_b + 1 : 0;
+    cage_i128 rest = bit < 128 ? cage_i128_shr(a, bit) : cage_i128_of(0), quotient = cage_i128_of(0);
+    while (bit-- > 0) {
         uint64_t word = bit < 64 ? cage_i128_low(a) : cage_i128_high(a);
         rest = cage_i128_add(cage_i128_add(rest, rest), cage_i128_make(0, word >> (bit & 63) & 1)); /* < 2 b < 2^128 */
         cage_i128 less = cage_i128_sub(rest, b);
@@ -40,25 +41,6 @@ cage_i128 cage_u128_divide_by_bits(cage_i128 a, cage_i128 b, cage_i128 *remainde
     }
     *remainder = rest;
     return quotient;
-}
-
-int64_t cage_i128_nearest(cage_i128 a, cage_i128 b, int64_t limit)
-{
-    if (cage_i128_negative(b)) {
-        a = cage_i128_minus(a);
-        b = cage_i128_minus(b);
-    }
-    bool negative = cage_i128_negative(a);
-    cage_i128 rest;
-    cage_i128 floor = cage_u128_divide(cage_i128_abs(a), b, &rest);
-    /* Up when 2 rest > b; a half goes toward +infinity, that is up for a > 0 only. */
-    int32_t half = cage_i128_compare(cage_i128_add(rest, rest), b);
-    if (half > 0 || (half == 0 && !negative))
-        floor = cage_i128_add(floor, cage_i128_of(1));
-    if (cage_i128_compare(floor, cage_i128_of(limit)) > 0)
-        floor = cage_i128_of(limit);
-    int64_t value = (int64_t)cage_i128_low(floor);
-    return negative ? -value : value;
 }
 
 int64_t cage_i128_floor(cage_i128 a, cage_i128 b, int64_t limit)
@@ -72,6 +54,16 @@ int64_t cage_i128_floor(cage_i128 a, cage_i128 b, int64_t limit)
         floor = cage_i128_of(limit);
     int64_t value = (int64_t)cage_i128_low(floor);
     return negative ? -value : value;
+}
+
+/* floor((2 a + b) / 2 b) */
+int64_t cage_i128_nearest(cage_i128 a, cage_i128 b, int64_t limit)
+{
+    if (cage_i128_negative(b)) {
+        a = cage_i128_minus(a);
+        b = cage_i128_minus(b);
+    }
+    return cage_i128_floor(cage_i128_add(cage_i128_add(a, a), b), cage_i128_add(b, b), limit);
 }
 
 /* Digit by digit, without a product: what is left of a is always a less the square of the root so far. */

@@ -45,12 +45,14 @@ CAGE_SHARED uint64_t cage_u64_divide(uint64_t a, uint64_t b)
     return a / b;
 #else
     uint64_t quotient = 0;
-    uint32_t of_a = cage_u64_bits(a), of_b = cage_u64_bits(b);
-    for (uint32_t bit = of_a >= of_b ? of_a - of_b + 1 : 0; bit-- > 0;)
-        if (a >= b << bit) {
-            a -= b << bit;
-            quotient |= (uint64_t)1 << bit;
-        }
+    uint32_t of_a = cage_u64_bits(a), of_b = cage_u64_bits(b), bits = of_a >= of_b ? of_a - of_b + 1 : 0;
+    b <<= bits > 0 ? bits - 1 : 0;
+    for (; bits > 0; bits--) {
+        uint64_t fits = a >= b;
+        a -= fits ? b : 0;
+        quotient = 2 * quotient + fits;
+        b >>= 1;
+    }
     return quotient;
 #endif
 }
@@ -205,10 +207,10 @@ CAGE_SHARED uint32_t cage_u128_bits(cage_i128 a)
 /* Floor and remainder of the unsigned a by the unsigned b > 0, b < 2^127: cage_u128_divide, where there is no wider type. */
 cage_i128 cage_u128_divide_by_bits(cage_i128 a, cage_i128 b, cage_i128 *remainder);
 
-/* The nearest integer to a / b, ties toward +infinity, clamped to +-limit; b is not 0, |a| and |b| < 2^126. */
+/* The nearest integer to a / b, ties toward +infinity, clamped to +-limit; b is not 0, |a| < 2^125 and |b| < 2^126. */
 int64_t cage_i128_nearest(cage_i128 a, cage_i128 b, int64_t limit);
 
-/* The largest integer not above a / b, clamped likewise; 0 < b < 2^126, |a| < 2^126. */
+/* The largest integer not above a / b, clamped likewise; 0 < b < 2^127, |a| < 2^127. */
 int64_t cage_i128_floor(cage_i128 a, cage_i128 b, int64_t limit);
 
 /* floor(sqrt(a)) of the unsigned value a < 2^126. */

@@ -3,7 +3,7 @@
 
 # call_graph FOLDER PREFIX FLAGS: compile the core with PREFIXgcc and write FOLDER/calls ("caller callee") and FOLDER/frames
 # ("function bytes kind"). A call through a pointer may go to any function of a file that has functions in a table
-# (tables of jumps look alike: none).
+# (tables of jumps look alike: none); but in a file that calls shortcuts->NAME it goes to cage_NAME (see shortcuts.h).
 call_graph() {
     rm -rf "$1"
     mkdir -p "$1"
@@ -18,7 +18,10 @@ call_graph() {
             END { exit !found }' "$1/functions" -; then
             sed -n 's/^node: { title: "\([^"]*\)".* bytes (.*/__indirect_call \1/p' "$1/$name.ci"
         fi
-        sed -n 's/^edge: { sourcename: "\([^"]*\)" targetname: "\([^"]*\)".*/\1 \2/p' "$1/$name.ci"
+        grep -o 'shortcuts->[a-z_]*(' "$file" | sed 's/.*>\(.*\)(/cage_\1/' >"$1/taken"
+        sed -n 's/^edge: { sourcename: "\([^"]*\)" targetname: "\([^"]*\)".*/\1 \2/p' "$1/$name.ci" |
+            awk 'FILENAME != "-" { to[n++] = $1; next } $2 != "__indirect_call" || n == 0 { print; next }
+                { for (i = 0; i < n; i++) print $1, to[i] }' "$1/taken" -
     done | sed 's|src/||g' | sort -u >"$1/calls"
     cat "$1"/*.ci | sed -n 's/^node: { title: "\([^"]*\)".*\\n\([0-9]*\) bytes (\([^)]*\)).*/\1 \2 \3/p' |
         sed 's|src/||g' | sort -u >"$1/frames"

@@ -15,7 +15,7 @@ void complex_build(int32_t dim, const cage_ball *ball, int32_t count, int dirt, 
         memset(out->block, dirt, bytes);
         struct cage_arena arena;
         cage_arena_init(&arena, out->block, bytes);
-        int32_t got = cage_delaunay(&arena, dim, ball, count, &out->t);
+        int32_t got = cage_delaunay(&arena, &cage_all_shortcuts, dim, ball, count, &out->t);
         if (got == CAGE_OK)
             return;
         test_require(got == CAGE_ERROR_MEMORY);

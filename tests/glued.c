@@ -22,10 +22,24 @@ static void name_components(struct glued *g)
     }
 }
 
+/* Each is a vertex of a simplex: hidden ones were dropped. */
+static void check_sites(const struct cage_triangulation *t)
+{
+    for (int32_t i = t->dim + 1; i < t->sites; i++) {
+        bool used = false;
+        for (int32_t s = 0; s < t->simplices && !used; s++)
+            for (int32_t k = 0; k <= t->dim; k++)
+                used = used || t->simplex[s].v[k] == i;
+        test_require(used && t->ball[i] >= 0);
+    }
+}
+
 void glued_make(struct cage_arena *arena, const struct cage_side *side, const struct cage_rotations *rotations, struct glued *out)
 {
     test_require(cage_slice_make(arena, side, rotations, &out->slice) == CAGE_OK);
     whole_make(side, rotations, &out->whole);
+    check_sites(&out->slice.t);
+    test_require(!out->slice.whole || out->slice.inserted == out->slice.balls);
     name_components(out);
 }
 

@@ -311,7 +311,7 @@ void pockets_side(struct cage_arena *arena, const struct pockets *p, struct cage
     const cage_scene scene = {
         {p->object, p->object, p->objects, p->objects}, {p->obstacle, p->obstacle, p->obstacles, p->obstacles}, p->dim};
     test_require(cage_scene_check(&scene) == CAGE_OK);
-    test_require(cage_side_make(arena, &scene, p->pivot, p->sign, side) == CAGE_OK);
+    test_require(cage_side_make(arena, &scene, p->pivot, p->sign, &cage_all_shortcuts, side) == CAGE_OK);
 }
 
 void pockets_print(FILE *file, const struct pockets *p)

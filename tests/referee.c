@@ -6,11 +6,14 @@
 #include "oracle.h"
 #include "oracle_space.h"
 
-static int32_t prove_with(int32_t (*run)(cage_proof *proof, int64_t steps), const question *q, int64_t portion, void *memory,
-                          size_t bytes, cage_result *result)
+typedef int32_t (*one_begin)(cage_proof **proof, const cage_scene *scene, const cage_pose *start, const cage_pose *goal,
+                             const cage_limits *limits, void *memory, size_t bytes);
+
+static int32_t prove_with(one_begin begin, int32_t (*run)(cage_proof *proof, int64_t steps), const question *q, int64_t portion,
+                          void *memory, size_t bytes, cage_result *result)
 {
     cage_proof *proof = NULL;
-    int32_t error = cage_prove_begin(&proof, q->view, q->start, q->goal, q->limits, memory, bytes);
+    int32_t error = begin(&proof, q->view, q->start, q->goal, q->limits, memory, bytes);
     memset(result, 0, sizeof *result);
     if (error != CAGE_OK) {
         return error;
@@ -24,12 +27,17 @@ static int32_t prove_with(int32_t (*run)(cage_proof *proof, int64_t steps), cons
 
 int32_t referee_prove(const question *q, int64_t portion, void *memory, size_t bytes, cage_result *result)
 {
-    return prove_with(cage_prove_run, q, portion, memory, bytes, result);
+    return prove_with(cage_prove_begin, cage_prove_run, q, portion, memory, bytes, result);
 }
 
 int32_t referee_prove_inner(const question *q, int64_t portion, void *memory, size_t bytes, cage_result *result)
 {
-    return prove_with(cage_prove_run_inner, q, portion, memory, bytes, result);
+    return prove_with(cage_prove_begin, cage_prove_run_inner, q, portion, memory, bytes, result);
+}
+
+int32_t referee_prove_small(const question *q, int64_t portion, void *memory, size_t bytes, cage_result *result)
+{
+    return prove_with(cage_prove_begin_small, cage_prove_run_inner, q, portion, memory, bytes, result);
 }
 
 int referee_decided(int32_t verdict)

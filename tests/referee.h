@@ -19,6 +19,9 @@ int32_t referee_prove(const question *q, int64_t portion, void *memory, size_t b
 /* The same with cage_prove_run_inner; limits of the inner side. */
 int32_t referee_prove_inner(const question *q, int64_t portion, void *memory, size_t bytes, cage_result *result);
 
+/* The same, begun with cage_prove_begin_small. */
+int32_t referee_prove_small(const question *q, int64_t portion, void *memory, size_t bytes, cage_result *result);
+
 /* Null, or what the answer alone has wrong: its form, its reason, its path. */
 const char *referee_form(const question *q, const cage_result *r);
 

@@ -23,7 +23,6 @@
 #define cage_simplex_volume RENAME(simplex_volume)
 #define cage_orthocentre RENAME(orthocentre)
 #define cage_simplex_power RENAME(simplex_power)
-#define cage_centre_is_wide RENAME(centre_is_wide)
 #define cage_centre_side RENAME(centre_side)
 #define cage_centre_off RENAME(centre_off)
 #define cage_facet_power RENAME(facet_power)

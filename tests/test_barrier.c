@@ -24,7 +24,7 @@ static int32_t ask(struct cage_view *view, int32_t k, int32_t l, int32_t x[3])
 {
     if (cage_view_is_touching(view, k, l, x))
         return TOUCHING;
-    return cage_view_is_apart(view, k, l) ? APART : UNDECIDED;
+    return cage_barrier_is_apart(view, k, l) ? APART : UNDECIDED;
 }
 
 /* Ask in the order in which gluing does, then in any. */

@@ -402,7 +402,7 @@ static void compare_scene(const cage_scene *view, uint64_t seed)
             struct cage_rotations rotations;
             struct cage_corners corners;
             cage_arena_init(&arena, block, ARENA);
-            ck_assert_int_eq(cage_side_make(&arena, view, pivot, sign, &side), CAGE_OK);
+            ck_assert_int_eq(cage_side_make(&arena, view, pivot, sign, &cage_all_shortcuts, &side), CAGE_OK);
             choose_cell(&state, view->dim, (int32_t)test_between(&state, 0, view->dim == 2 ? 9 : 5), &rotations, &corners);
             const struct cage_corners *within = view->dim == 3 ? &corners : NULL;
             ck_assert_int_eq(cage_slice_make_within(&arena, &side, &rotations, within, &slice), CAGE_OK);
@@ -473,7 +473,7 @@ static void slice_of(struct cage_arena *arena, int32_t dim, const cage_ball *bal
     static const struct cage_rotations rotations = {{1, 0, 0, 0}, 0};
     static const int32_t reach = 0;
     const cage_ball point = {0, 0, 0, -cage_radius_change(0, -1)};
-    const struct cage_side side = {&point, &reach, ball, 1, count, dim, -1, {NULL, NULL, NULL, NULL}};
+    const struct cage_side side = {&point, &reach, ball, 1, count, dim, -1, &cage_all_shortcuts, {NULL, NULL, NULL, NULL}};
     ck_assert_int_eq(cage_slice_make(arena, &side, &rotations, out), CAGE_OK);
     ck_assert_int_eq(out->balls, count);
 }

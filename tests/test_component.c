@@ -83,7 +83,7 @@ static void label(int32_t dim, const cage_ball *ball, int32_t count, struct labe
     size_t bytes = (size_t)1 << 20;
     out->block = test_alloc(bytes);
     cage_arena_init(&arena, out->block, bytes);
-    ck_assert_int_eq(cage_delaunay(&arena, dim, ball, count, &out->t), CAGE_OK);
+    ck_assert_int_eq(cage_delaunay(&arena, &cage_all_shortcuts, dim, ball, count, &out->t), CAGE_OK);
     ck_assert_int_eq(cage_components(&arena, &out->t, &out->c), CAGE_OK);
 }
 

@@ -94,7 +94,7 @@ static int32_t build_in(size_t bytes, int32_t dim, const cage_ball *ball, int32_
     if (kept)
         kept[0] = kept[1] = 12345;
     size_t used = arena.used;
-    int32_t got = cage_delaunay(&arena, dim, ball, count, &t);
+    int32_t got = cage_delaunay(&arena, &cage_all_shortcuts, dim, ball, count, &t);
     test_require(memcmp(all, intact, BEFORE) == 0);
     if (memcmp(all + BEFORE + bytes, intact, AFTER) != 0)
         ck_abort_msg("dim %d, %d balls, block of %lu bytes: something behind it was written", (int)dim, (int)count,
@@ -202,7 +202,7 @@ START_TEST(peak_is_what_was_used)
             struct cage_arena arena;
             struct cage_triangulation t;
             cage_arena_init(&arena, block, bytes);
-            ck_assert_int_eq(cage_delaunay(&arena, dim, ball, 200, &t), CAGE_OK);
+            ck_assert_int_eq(cage_delaunay(&arena, &cage_all_shortcuts, dim, ball, 200, &t), CAGE_OK);
             peak[k] = arena.peak;
             used[k] = arena.used;
             free(block);

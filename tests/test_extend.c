@@ -186,7 +186,7 @@ START_TEST(memory_sweep)
     struct built from;
     struct cage_site site[MOST];
     const struct cage_site *more[MOST];
-    struct cage_triangulation right = {NULL, NULL, NULL, 0, 0, 0}, t;
+    struct cage_triangulation right = {NULL, NULL, NULL, NULL, 0, 0, 0}, t;
     struct cage_arena arena;
     unsigned char *ample = test_alloc(1 << 16);
     balls_make(kinds[_i / 2], dim, 16, count, ball);

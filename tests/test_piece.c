@@ -273,19 +273,21 @@ static void check_ball(const struct cage_triangulation *t, int32_t s, struct exa
         far = far || !is_within(exact->x[k], 0, 2 * (reach - 2), value);
         if (ball.radius < 0)
             continue;
-        test_require(is_within(exact->x[k], ball.at[k], 2, value));
+        test_require(is_within(exact->x[k], ball.at[k], 1, value)); /* the nearest */
         mpq_mul(value, value, value); /* the distance, squared */
         mpq_add(square, square, value);
     }
     test_require(ball.radius >= 0 || far);
     if (ball.radius < 0)
         return;
-    mpq_set_si(value, 9, 4);
-    mpq_canonicalize(value);
-    test_require(mpq_cmp(square, value) < 0);
-    mpq_set_si(value, (2 * (int64_t)ball.radius - 3) * (2 * (int64_t)ball.radius - 3), 4);
-    mpq_canonicalize(value);
-    test_require(ball.radius >= 3 && mpq_cmp(exact->power, value) <= 0);
+    mpq_set_si(value, ball.radius - 1, 1); /* the ball about the orthocentre itself, which is less than 1 away, lies in it */
+    mpq_mul(value, value, value);
+    test_require(mpq_cmp_ui(square, 1, 1) < 0 && ball.radius >= 2 && mpq_cmp(exact->power, value) <= 0);
+    /* If it is said to be off all balls up to some radius it is off all that reach as far as the power allows. */
+    for (int32_t radius = 1; radius > 0 && radius < 1 << 28 && cage_orthoball_is_off(t, &ball, radius); radius *= 2) {
+        mpq_set_si(value, 2 * (int64_t)radius + 1, 1);
+        test_require(mpq_cmp(exact->power, value) > 0);
+    }
 }
 
 /* As ball sets have them; or on a coarse lattice, where offsets are 0 and determinants multiples of 2^64; or nearly so. */
@@ -319,7 +321,7 @@ START_TEST(balls_are_exact)
             void *block = test_alloc(ARENA);
             cage_arena_init(&arena, block, ARENA);
             make_balls(kind, _i, (uint64_t)seed, 60, ball);
-            test_require(cage_delaunay(&arena, _i, ball, 60, &t) == CAGE_OK);
+            test_require(cage_delaunay(&arena, &cage_all_shortcuts, _i, ball, 60, &t) == CAGE_OK);
             for (int32_t s = 0; s < t.simplices; s++)
                 if (!cage_simplex_outer(&t, s)) {
                     check_ball(&t, s, &exact, value, square);

@@ -151,7 +151,7 @@ static void make_slice(struct cage_arena *arena, int32_t size, struct cage_slice
         const cage_ball at = {1000 * i, size, 0, 100};
         row[i] = at;
     }
-    const struct cage_side side = {&point, &reach, row, 1, size, 2, -1, {NULL, NULL, NULL, NULL}};
+    const struct cage_side side = {&point, &reach, row, 1, size, 2, -1, &cage_all_shortcuts, {NULL, NULL, NULL, NULL}};
     ck_assert_int_eq(cage_slice_make(arena, &side, &rotations, out), CAGE_OK);
 }
 

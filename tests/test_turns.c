@@ -97,7 +97,7 @@ START_TEST(slices_of_images_have_the_same_balls)
         struct cage_cell cell[2] = {any_cell(&state), {0, 0, {0, 0, 0}}};
         cage_so3_turned_cell(&cell[0], turn, &cell[1]);
         cage_arena_init(&arena, memory, PLENTY);
-        ck_assert_int_eq(cage_side_make(&arena, &view, origin, round % 2 ? 1 : -1, &side), CAGE_OK);
+        ck_assert_int_eq(cage_side_make(&arena, &view, origin, round % 2 ? 1 : -1, &cage_all_shortcuts, &side), CAGE_OK);
         for (int i = 0; i < 2; i++) {
             struct cage_rotations rotations;
             struct cage_corners corners;
@@ -141,7 +141,7 @@ START_TEST(images_of_balls_are_found)
             struct cage_arena arena;
             struct cage_side side;
             cage_arena_init(&arena, memory, 1 << 20);
-            ck_assert_int_eq(cage_side_make(&arena, &view, pivot, -1, &side), CAGE_OK);
+            ck_assert_int_eq(cage_side_make(&arena, &view, pivot, -1, &cage_all_shortcuts, &side), CAGE_OK);
             size_t used = arena.used;
             int32_t is = cage_side_turn(&arena, turn, &side), truth = 1;
             for (int32_t i = 0; i < s.object_count; i++) {

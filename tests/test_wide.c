@@ -95,7 +95,7 @@ static bool define(enum wide_op op, words a, words b, int64_t c, words *out)
         mpz_fdiv_q(expected, u, v);
         break;
     case WIDE_NEAREST:
-        if (mpz_sgn(y) == 0 || !within(x, 126) || !within(y, 126) || c < 0)
+        if (mpz_sgn(y) == 0 || !within(x, 125) || !within(y, 126) || c < 0)
             return false;
         /* floor((2 x + y) / (2 y)): the nearest, halves upward, whatever the signs */
         count = 1;
@@ -107,7 +107,7 @@ static bool define(enum wide_op op, words a, words b, int64_t c, words *out)
         clamp(expected, u);
         break;
     case WIDE_FLOOR:
-        if (mpz_sgn(y) <= 0 || !within(x, 126) || !within(y, 126) || c < 0)
+        if (mpz_sgn(y) <= 0 || !within(x, 127) || !within(y, 127) || c < 0)
             return false;
         count = 1;
         mpz_set(u, expected);

@@ -15,7 +15,7 @@ static void label_all(int32_t dim, struct whole *out)
     size_t bytes = ((size_t)out->count + 8) * 2048 + 65536;
     out->block = test_alloc(bytes);
     cage_arena_init(&arena, out->block, bytes);
-    test_require(cage_delaunay(&arena, dim, out->ball, out->count, &out->t) == CAGE_OK);
+    test_require(cage_delaunay(&arena, &cage_all_shortcuts, dim, out->ball, out->count, &out->t) == CAGE_OK);
     test_require(cage_components(&arena, &out->t, &out->c) == CAGE_OK);
 }
 

@@ -21,7 +21,7 @@ static double triangulations(unsigned char *block, const cage_scene *scene, int3
     *balls = 0;
     for (int32_t side = 0; side < 2; side++) {
         struct cage_side of;
-        if (!(sides >> side & 1) || cage_side_make(&arena, scene, pivot, side == 0 ? -1 : 1, &of) != CAGE_OK)
+        if (!(sides >> side & 1) || cage_side_make(&arena, scene, pivot, side == 0 ? -1 : 1, &cage_all_shortcuts, &of) != CAGE_OK)
             continue;
         for (int32_t n = 0; n < fibre->roots << (scene->dim == 2 ? level : 3 * level); n++) {
             int32_t at = n / fibre->roots, mask = (1 << level) - 1;
@@ -42,7 +42,7 @@ static double triangulations(unsigned char *block, const cage_scene *scene, int3
             int32_t count = bench_all_balls(&of, &slice, ball);
             cage_arena_release(&arena, mark);
             double start = bench_now();
-            if (cage_delaunay(&arena, scene->dim, ball, count, &t) != CAGE_OK)
+            if (cage_delaunay(&arena, &cage_all_shortcuts, scene->dim, ball, count, &t) != CAGE_OK)
                 bench_die("cage_delaunay failed");
             seconds += bench_now() - start;
             *balls += count;

@@ -73,7 +73,7 @@ static void time_set(const struct bench_set *set, int32_t runs, struct timing *o
         struct cage_triangulation t;
         cage_arena_init(&arena, block, BENCH_ROOM);
         double start = bench_now();
-        if (cage_delaunay(&arena, set->dim, ball, set->count, &t) != CAGE_OK)
+        if (cage_delaunay(&arena, &cage_all_shortcuts, set->dim, ball, set->count, &t) != CAGE_OK)
             bench_die("cage_delaunay failed");
         ns[i] = (bench_now() - start) * 1e9 / set->count;
         if (i == 0)
@@ -189,7 +189,7 @@ static double triangulate(struct cage_arena *arena, const cage_ball *ball, int32
     struct cage_triangulation t;
     size_t mark = arena->used;
     double start = bench_now();
-    if (cage_delaunay(arena, 2, ball, balls, &t) != CAGE_OK)
+    if (cage_delaunay(arena, &cage_all_shortcuts, 2, ball, balls, &t) != CAGE_OK)
         bench_die("cage_delaunay failed");
     double taken = bench_now() - start;
     cage_arena_release(arena, mark);
@@ -203,9 +203,8 @@ static double choose(struct cage_arena *arena, cage_ball *ball, int32_t balls)
     struct cage_raster raster;
     size_t mark = arena->used;
     double start = bench_now();
-    if (cage_raster_make(arena, 2, ball, balls, &raster) != CAGE_OK)
-        bench_die("cage_raster_make failed");
-    cage_raster_keep(&raster, 2, ball, of, balls);
+    if (cage_prune(arena, 2, ball, of, &balls, &raster) != CAGE_OK)
+        bench_die("cage_prune failed");
     double taken = bench_now() - start;
     cage_arena_release(arena, mark);
     return taken;
@@ -219,7 +218,7 @@ static void triangulations(const struct fence *fence, const cage_result *result,
     struct cage_arena arena;
     struct cage_side side;
     cage_arena_init(&arena, block, BENCH_ROOM);
-    if (cage_side_make(&arena, &fence->scene, result->pivot, -1, &side) != CAGE_OK)
+    if (cage_side_make(&arena, &fence->scene, result->pivot, -1, &cage_all_shortcuts, &side) != CAGE_OK)
         bench_die("cage_side_make failed");
     seconds[0] = seconds[1] = seconds[2] = *slices = 0;
     for (int32_t face = 0; face < cage_so2.roots; face++)

@@ -55,7 +55,7 @@ void bench_space_make(struct cage_arena *arena, int32_t obstacles, int32_t objec
     }
     out->scene = scene;
     move_home(out, objects);
-    if (cage_scene_check(&out->scene) != CAGE_OK || cage_side_make(arena, &out->scene, origin, -1, &out->side) != CAGE_OK)
+    if (cage_scene_check(&out->scene) != CAGE_OK || cage_side_make(arena, &out->scene, origin, -1, &cage_all_shortcuts, &out->side) != CAGE_OK)
         bench_die("the scene does not fit");
 }
 

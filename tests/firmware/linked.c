@@ -5,6 +5,7 @@ int32_t only_ask(const cage_atlas *atlas, const cage_pose *start, const cage_pos
 int32_t only_query(const void *bytes, size_t size, const cage_pose *start, const cage_pose *goal);
 int32_t only_prove(const cage_scene *scene, const cage_pose *start, const cage_pose *goal, void *memory, size_t size);
 int32_t only_cage(const cage_scene *scene, const cage_pose *start, const cage_pose *goal, void *memory, size_t size);
+int32_t only_small(const cage_scene *scene, const cage_pose *start, const cage_pose *goal, void *memory, size_t size);
 int32_t only_build(const cage_scene *scene, const cage_plan *plan, void *memory, size_t size, void *out);
 int32_t prove_and_query(const cage_scene *scene, const cage_pose *start, void *memory, size_t size, const void *bytes);
 
@@ -38,6 +39,16 @@ int32_t only_cage(const cage_scene *scene, const cage_pose *start, const cage_po
     cage_limits_default(&limits, scene->dim);
     limits.side = CAGE_SIDE_INNER;
     int32_t state = cage_prove_begin(&proof, scene, start, goal, &limits, memory, size);
+    while (state == 0)
+        state = cage_prove_run_inner(proof, 1);
+    return state < 0 ? state : cage_prove_result(proof)->verdict;
+}
+
+/* And in the least code. */
+int32_t only_small(const cage_scene *scene, const cage_pose *start, const cage_pose *goal, void *memory, size_t size)
+{
+    cage_proof *proof;
+    int32_t state = cage_prove_begin_small(&proof, scene, start, goal, NULL, memory, size);
     while (state == 0)
         state = cage_prove_run_inner(proof, 1);
     return state < 0 ? state : cage_prove_result(proof)->verdict;

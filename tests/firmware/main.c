@@ -2,6 +2,7 @@
  *
  * One line for each proof and each atlas, then the sum of the steps and one hash over every byte of every result; after these
  * what may differ between machines: memory, and instructions where the machine counts them. */
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -106,6 +107,34 @@ static void add_result(uint64_t *hash, const cage_result *r)
         add_pose(hash, &r->path[i]);
 }
 
+/* A separation once more, by the inner side alone and in the least code: its steps and balls are others. */
+static int32_t prove_small(const struct entry *e, const cage_scene *scene, int32_t verdict)
+{
+    cage_limits limits;
+    cage_proof *proof;
+    cage_limits_default(&limits, e->dim);
+    limits.side = CAGE_SIDE_INNER;
+    limits.max_cells = e->dim == 2 ? 1024 : 8192;
+    int32_t state = cage_prove_begin_small(&proof, scene, &e->start, e->has_goal ? &e->goal : NULL, &limits, block.byte, BLOCK);
+    while (state == 0)
+        state = cage_prove_run_inner(proof, 1);
+    if (state < 0 || cage_prove_result(proof)->verdict != verdict) {
+        put("the least code: ");
+        put(state < 0 ? cage_error_text(state) : cage_verdict_text(cage_prove_result(proof)->verdict));
+        put("\n");
+        return 1;
+    }
+    const cage_result *r = cage_prove_result(proof);
+    add_result(&all_hash, r);
+    field("the same in the least code: steps ", (uint64_t)r->steps);
+    field(", slices ", (uint64_t)r->slices[0]);
+    field(", balls ", triangulated(r->inserted));
+    put(", hash ");
+    put_hash(all_hash);
+    put("\n");
+    return 0;
+}
+
 /* One step at a time, as a controller would. */
 static int32_t prove(const struct entry *e, const cage_scene *scene)
 {
@@ -155,18 +184,21 @@ static int32_t prove(const struct entry *e, const cage_scene *scene)
         put("it took more than twice cage_prove_size\n");
         return 1;
     }
+    if (r->verdict == CAGE_CAGED || r->verdict == CAGE_DISCONNECTED)
+        return prove_small(e, scene, r->verdict);
     return r->path_count > 0 && cage_path_check(scene, &e->start, goal, r->pivot, r->path, r->path_count) != 1;
 }
 
-/* A part of 5 balls in 40 obstacles, in 64 KiB; where pointers have 64 bits, in half as much again. */
-static int32_t prove_in_little(const cage_scene *scene, const cage_pose *start, const cage_pose *goal, int32_t verdict)
+/* A part of 5 balls in 40 obstacles, in 64 KiB; where pointers have 64 bits, in half as much again. small: in the least code. */
+static int32_t prove_in_bytes(const cage_scene *scene, const cage_pose *start, const cage_pose *goal, int32_t verdict, bool small)
 {
     const cage_limits limits = {CAGE_SIDE_INNER, -1, 12, 16};
     cage_proof *proof;
     size_t bytes = sizeof(void *) == 4 ? 65536 : 98304;
-    int32_t state = cage_prove_begin(&proof, scene, start, goal, &limits, block.byte, bytes);
+    int32_t state = small ? cage_prove_begin_small(&proof, scene, start, goal, &limits, block.byte, bytes)
+                          : cage_prove_begin(&proof, scene, start, goal, &limits, block.byte, bytes);
     while (state == 0)
-        state = cage_prove_run(proof, 1);
+        state = cage_prove_run_inner(proof, 1);
     if (state == CAGE_ERROR_MEMORY)
         field("in little memory: not enough, try ", cage_prove_result(proof)->needed_bytes);
     if (state < 0) {
@@ -174,12 +206,17 @@ static int32_t prove_in_little(const cage_scene *scene, const cage_pose *start, 
         return 1;
     }
     add_result(&all_hash, cage_prove_result(proof));
-    field("in little memory: ", (uint64_t)scene->object.inner_count);
+    field(small ? "in little memory and code: " : "in little memory: ", (uint64_t)scene->object.inner_count);
     field(" balls in ", (uint64_t)scene->obstacles.inner_count);
     put(": ");
     put(cage_verdict_text(cage_prove_result(proof)->verdict));
     put("\n");
     return cage_prove_result(proof)->verdict != verdict;
+}
+
+static int32_t prove_in_little(const cage_scene *scene, const cage_pose *start, const cage_pose *goal, int32_t verdict)
+{
+    return prove_in_bytes(scene, start, goal, verdict, false) + prove_in_bytes(scene, start, goal, verdict, true);
 }
 
 static int32_t draw(uint32_t *state, int32_t low, int32_t high)

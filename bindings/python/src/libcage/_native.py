@@ -219,6 +219,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], bool]] = {
     "cage_limits_default": (None, [_p, c_int32], False),
     "cage_prove_size": (c_size_t, [_p, _p], False),
     "cage_prove_begin": (c_int32, [_p, _p, _p, _p, _p, _p, c_size_t], True),
+    "cage_prove_begin_small": (c_int32, [_p, _p, _p, _p, _p, _p, c_size_t], True),
     "cage_prove_run": (c_int32, [_p, c_int64], False),
     "cage_prove_run_inner": (c_int32, [_p, c_int64], False),
     "cage_prove_run_with": (c_int32, [_p, c_int64, _p], False),
