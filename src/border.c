@@ -46,10 +46,8 @@ int32_t cage_border_drop(struct cage_arena *arena, const struct cage_triangulati
         return CAGE_ERROR_MEMORY;
     now[CAGE_OUTSIDE] = CAGE_OUTSIDE;
     for (int32_t k = 1; k < c->count; k++) {
-        const struct cage_site *v[4];
         struct cage_centre centre;
-        cage_simplex_sites(t, c->deep[k], v);
-        cage_orthocentre(t->dim, v, &centre);
+        cage_component_point(t, c, k, &centre);
         now[k] = holds_centre(t, &centre, ball + kept, count - kept) ? CAGE_COVERED : k;
     }
     cage_components_drop(t, now, c);

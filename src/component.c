@@ -103,6 +103,13 @@ int32_t cage_components(struct cage_arena *arena, const struct cage_triangulatio
     return CAGE_OK;
 }
 
+void cage_component_point(const struct cage_triangulation *t, const struct cage_components *c, int32_t k, struct cage_centre *out)
+{
+    const struct cage_site *v[4];
+    cage_simplex_sites(t, c->deep[k], v);
+    cage_orthocentre(t->dim, v, out);
+}
+
 void cage_components_drop(const struct cage_triangulation *t, int32_t *now, struct cage_components *c)
 {
     int32_t count = 0;

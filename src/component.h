@@ -18,6 +18,9 @@ struct cage_components {
 /* The two arrays are taken from the arena. */
 int32_t cage_components(struct cage_arena *arena, const struct cage_triangulation *t, struct cage_components *out);
 
+/* A point of bounded component k: the orthocentre of its largest simplex. */
+void cage_component_point(const struct cage_triangulation *t, const struct cage_components *c, int32_t k, struct cage_centre *out);
+
 /* Components k with now[k] = CAGE_COVERED become covered, and the others move up. */
 void cage_components_drop(const struct cage_triangulation *t, int32_t *now, struct cage_components *c);
 

@@ -38,7 +38,8 @@ struct cage_proof {
     int32_t phase;
     int32_t corridor;           /* cells with this number may be explored on the outer side; 0: all may */
     int32_t corridors;
-    int64_t outer_steps;        /* taken by the outer side */
+    int64_t outer_steps;        /* taken by the outer side, */
+    bool spares_outer;          /* which has had its share of the steps: run.c says so */
     bool outer_lost;            /* the outer side has no place to begin at: as if it were not asked for */
     int32_t outer_work;         /* slices and gluings of the outer side when the corridor was chosen */
     int32_t origin;             /* the cell the search begins at: CAGE_CELL_START or CAGE_CELL_GOAL */
@@ -117,9 +118,6 @@ static inline bool cage_proof_has_outer(const struct cage_proof *proof)
 int32_t cage_proof_finish(struct cage_proof *proof, int32_t verdict, int32_t reason);
 
 bool cage_proof_is_done(const struct cage_proof *proof);
-
-/* Has its outer side had its share of the steps? */
-bool cage_proof_spares_outer(const struct cage_proof *proof);
 
 /* After a step that failed for lack of memory: was it work, facts or path that found none, and did they get some of the store's,
  * which is emptied? Then the step can be taken again: so far it has done nothing, but that the path may have become longer. */

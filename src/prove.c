@@ -98,7 +98,7 @@ static int32_t step_inner(struct cage_proof *proof)
         proof->phase = CAGE_PHASE_REFINE;
         return CAGE_OK;
     }
-    if (cage_proof_spares_outer(proof)) {
+    if (proof->spares_outer) {
         cage_search_known(proof, CAGE_OUTER);
         proof->phase = CAGE_PHASE_REFINE;
         return CAGE_OK;

@@ -271,10 +271,8 @@ int32_t cage_drop_phantoms(struct cage_arena *arena, const struct cage_triangula
         return CAGE_OK;
     now[CAGE_OUTSIDE] = CAGE_OUTSIDE;
     for (int32_t k = 1; k < c->count; k++) {
-        const struct cage_site *v[4];
         struct cage_centre centre;
-        cage_simplex_sites(t, c->deep[k], v);
-        cage_orthocentre(t->dim, v, &centre);
+        cage_component_point(t, c, k, &centre);
         now[k] = is_covered(raster, t->dim, &centre) ? CAGE_COVERED : k;
     }
     cage_components_drop(t, now, c);

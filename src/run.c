@@ -60,19 +60,17 @@ static bool is_share(int64_t taken, int64_t steps, int32_t early, int32_t late)
     return steps < EARLY ? taken * early <= steps : (taken - EARLY / early) * late <= steps - EARLY;
 }
 
-bool cage_proof_spares_outer(const struct cage_proof *proof)
-{
-    return proof->second && proof->result.steps > EARLY &&
-           !is_share(proof->outer_steps, proof->result.steps, GUIDED_EARLY, GUIDED_LATE);
-}
-
 /* The search whose turn it is. */
 static struct cage_proof *next_search(struct cage_proof *proof)
 {
     struct cage_proof *second = proof->second;
-    bool its_turn = second && !cage_proof_is_done(second) &&
-                    is_share(second->result.steps + 1, proof->result.steps, SECOND_EARLY, SECOND_LATE);
-    return its_turn ? second : proof;
+    int64_t steps = proof->result.steps;
+    if (!second)
+        return proof;
+    if (!cage_proof_is_done(second) && is_share(second->result.steps + 1, steps, SECOND_EARLY, SECOND_LATE))
+        return second;
+    proof->spares_outer = steps > EARLY && !is_share(proof->outer_steps, steps, GUIDED_EARLY, GUIDED_LATE);
+    return proof;
 }
 
 /* Add up the results of both searches. */

@@ -173,6 +173,17 @@ const char *referee_contradiction(int32_t one, int32_t other)
     return NULL;
 }
 
+const char *referee_least(const question *q, int32_t truth, int32_t verdict, void *memory, size_t bytes, cage_result *result)
+{
+    cage_limits limits = *q->limits;
+    const question inner = {q->view, q->start, q->goal, &limits};
+    limits.side = CAGE_SIDE_INNER;
+    int32_t error = referee_prove_small(&inner, 0, memory, bytes, result);
+    const char *wrong = error == CAGE_OK ? referee_form(&inner, result) : cage_error_text(error);
+    wrong = wrong ? wrong : referee_contradiction(result->verdict, truth);
+    return wrong ? wrong : referee_contradiction(result->verdict, verdict);
+}
+
 const char *referee_difference(const cage_result *a, const cage_result *b, int with_peak)
 {
 #define SAME(field)                                       \

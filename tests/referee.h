@@ -28,6 +28,9 @@ const char *referee_form(const question *q, const cage_result *r);
 /* Null, or how a verdict of the library and one of the oracle (or of the library again) contradict. */
 const char *referee_contradiction(int32_t one, int32_t other);
 
+/* The question for the inner side, in the least code. Null, or what the answer has wrong, or how it contradicts one of these. */
+const char *referee_least(const question *q, int32_t truth, int32_t verdict, void *memory, size_t bytes, cage_result *result);
+
 /* Null, or the first field in which two answers to one question differ, paths included; peaks are
  * compared only on request, as they depend on how the block is aligned. */
 const char *referee_difference(const cage_result *a, const cage_result *b, int with_peak);

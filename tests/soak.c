@@ -67,16 +67,9 @@ static void try_seed(tally *t, uint64_t seed, int voxels, void *memory)
     if (!wrong) {
         wrong = referee_contradiction(r.verdict, truth);
     }
-    if (!wrong) { /* the same in the least code, which answers for the inner side */
-        cage_result small;
-        limits.side = CAGE_SIDE_INNER;
-        error = referee_prove_small(&q, 0, memory, BYTES, &small);
-        wrong = error == CAGE_OK ? referee_form(&q, &small) : cage_error_text(error);
-        if (!wrong)
-            wrong = referee_contradiction(small.verdict, truth);
-        if (!wrong)
-            wrong = referee_contradiction(small.verdict, r.verdict);
-        limits.side = CAGE_SIDE_BOTH;
+    if (!wrong) {
+        cage_result least;
+        wrong = referee_least(&q, truth, r.verdict, memory, BYTES, &least);
     }
     if (wrong) {
         complain(t, &s, wrong, &r, truth);

@@ -77,16 +77,9 @@ static void try_seed(tally *t, uint64_t seed, int32_t cells, const space_effort 
     if (!wrong && t->audit.wrong > before) {
         wrong = "the oracle is wrong about a pose";
     }
-    if (!wrong) { /* the same in the least code, which answers for the inner side */
-        cage_result small;
-        limits.side = CAGE_SIDE_INNER;
-        error = referee_prove_small(&q, 0, memory, BYTES, &small);
-        wrong = error == CAGE_OK ? referee_form(&q, &small) : cage_error_text(error);
-        if (!wrong)
-            wrong = referee_contradiction(small.verdict, truth);
-        if (!wrong)
-            wrong = referee_contradiction(small.verdict, r.verdict);
-        limits.side = CAGE_SIDE_BOTH;
+    if (!wrong) {
+        cage_result least;
+        wrong = referee_least(&q, truth, r.verdict, memory, BYTES, &least);
     }
     if (wrong) {
         complain(t, &s, wrong, &r, truth, how);

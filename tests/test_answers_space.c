@@ -98,19 +98,15 @@ static int32_t judge(const asked *a, int32_t verdict, const char **how)
     return truth;
 }
 
-/* The least code, asked for the inner side. Returns 1 if it proves the object separated, and adds to *inner if the usual code does. */
-static int32_t small_answer(asked *a, const cage_result *r, int32_t truth, int32_t *inner)
+/* Is it proved separated by the least code? *inner: and by the usual code of the inner side? */
+static int32_t least_code(asked *a, const cage_result *r, int32_t truth, int32_t *inner)
 {
-    cage_result small, usual;
+    cage_result least, usual;
+    expect(a, referee_least(&a->q, truth, r->verdict, spare, PLENTY, &least), "the least code");
     a->limits.side = CAGE_SIDE_INNER;
-    ck_assert_int_eq(referee_prove_small(&a->q, 1 + (int64_t)a->s.seed % 9, spare, PLENTY, &small), CAGE_OK);
-    expect(a, referee_form(&a->q, &small), "form of the least code");
-    expect(a, referee_contradiction(small.verdict, truth), "the least code and the oracle");
-    expect(a, referee_contradiction(small.verdict, r->verdict), "the least code and both sides");
     prove(a, 0, spare, &usual);
-    expect(a, (small.verdict == CAGE_IN_COLLISION) == (usual.verdict == CAGE_IN_COLLISION) ? NULL : "collision", "the least code");
     *inner += referee_decided(usual.verdict);
-    return referee_decided(small.verdict);
+    return referee_decided(least.verdict);
 }
 
 /* ---- against the oracle ------------------------------------------------------------------------------- */
@@ -136,7 +132,7 @@ START_TEST(answers_are_the_oracles)
         library += took;
         slowest = took > slowest ? took : slowest;
         all += test_seconds_since(start);
-        small += seed % 3 == 0 ? small_answer(&a, &r, truth, &inner) : 0;
+        small += seed % 3 == 0 ? least_code(&a, &r, truth, &inner) : 0;
     }
     printf("answers: of every third scene, the least code proved %d separated, the usual inner side %d\n", (int)small, (int)inner);
     ck_assert_int_ge(100 * small, 98 * inner);
