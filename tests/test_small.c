@@ -113,7 +113,7 @@ static void two(void *context, int32_t tasks, void (*task)(void *data, int32_t i
 START_TEST(however_it_is_run)
 {
     const cage_workers workers = {2, two, NULL, help, HELP};
-    for (uint64_t seed = 0; seed < (uint64_t)test_scenes(40); seed++) {
+    for (uint64_t seed = 0; seed < (uint64_t)test_rounds(40); seed++) {
         asked a;
         cage_result r, t;
         ask(&a, seed, seed % 2 ? 40 : 200);
@@ -155,7 +155,7 @@ static int32_t squeeze(const asked *a, size_t bytes, size_t offset, const cage_r
 START_TEST(any_block_gives_the_error_or_the_answer)
 {
     long runs = 0, answered = 0, rounds = 0, most = 0;
-    for (uint64_t seed = 0; seed < (uint64_t)test_scenes(14); seed++) {
+    for (uint64_t seed = 0; seed < (uint64_t)test_rounds(14); seed++) {
         asked a;
         cage_result right;
         uint64_t needed;
