@@ -183,14 +183,14 @@ int32_t cage_prove_begin(cage_proof **proof, const cage_scene *scene, const cage
 int32_t cage_prove_begin_small(cage_proof **proof, const cage_scene *scene, const cage_pose *start,
                                const cage_pose *goal, const cage_limits *limits, void *memory, size_t bytes);
 
-/* Do at most that many steps; a step builds one slice, glues one pair of slices, refines one cell, or writes or shortens one leg
- * of a path. With n object balls and m obstacle balls a slice triangulates at most n m balls. A gluing triangulates at most 2 n m,
- * balls of both slices, for each pair of components that nothing simpler decides, before that two slices that were dropped,
- * at worst twice (and all of it again each time that a block of hardly enough bytes has to be shared out anew, or the pairs are
- * more than expected). Most gluings have no such pair or one, so that a step takes 6 n m; 344 of them, 154 n m in all, were seen
- * where balls that just touch leave many pinholes. Beside that a step goes through cells and known edges, and the last one of a
- * path checks all of it. 1: finished, 0: more to do, negative: an error (the result keeps its counts, and needed_bytes). The answer does not
- * depend on how the steps are portioned. */
+/* Do at most that many steps; a step builds one slice, glues one pair of slices, refines one cell, or writes or shortens one
+ * leg of a path. With n object balls and m obstacle balls a slice triangulates at most n m balls. A gluing triangulates at most
+ * 2 n m, balls of both slices, for each pair of components that nothing simpler decides, before that two slices that were
+ * dropped, at worst twice (and all of it again each time that a block of hardly enough bytes has to be shared out anew, or the
+ * pairs are more than expected). Most gluings have no such pair or one, so that a step takes 6 n m; 344 of them, 154 n m in
+ * all, were seen where balls that just touch leave many pinholes. Beside that a step goes through cells and known edges, and
+ * the last one of a path checks all of it. 1: finished, 0: more to do, negative: an error (the result keeps its counts, and
+ * needed_bytes). The answer does not depend on how the steps are portioned. */
 int32_t cage_prove_run(cage_proof *proof, int64_t steps);
 
 /* The same for a proof that was begun with limits of CAGE_SIDE_INNER (else CAGE_ERROR_ARGUMENT): every byte of the result is the

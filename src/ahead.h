@@ -23,7 +23,8 @@ struct cage_unit {
 enum { CAGE_UNITS = 96, CAGE_WORKERS = 64 };
 
 struct cage_ahead {
-    /* The result, if it is there and would have fitted into scratch, which is left as if it had been worked out in it; else null. */
+    /* The result, if it is there and would have fitted into scratch, which is left as if it had been worked out in it; else null.
+     * (By a pointer, so that an image without workers does not carry it.) */
     const struct cage_unit *(*find)(struct cage_ahead *ahead, const struct cage_proof *proof, int32_t side, int32_t a, int32_t b,
                                     int32_t seed, struct cage_arena *scratch);
     struct cage_unit unit[CAGE_UNITS];

@@ -1,14 +1,14 @@
 /* barrier: proofs that a component of one slice and one of its neighbour are apart.
  *
- * Component K of slice c and L of slice d: let every vertex of the triangulation of c move on a straight line to where it is in d, its power
- * function interpolated likewise, so that each ball on the way lies in the union of the one that it comes from and the one
- * that it goes to. A facet or full simplex is solid if at every time it lies in the union of its own balls. Let R be
- * the union of the full simplices reached from those labelled K without crossing a solid facet or entering a solid simplex, S its
- * border. K lies in R (location lemma). A point of K off d is never met by the moving border, so it has the same
- * winding number (modulo 2) about S and about S', which is S arrived in d. S' lies in the balls of d, so all of L has one
- * number, and where a point of L has another, K and L are apart. A point of L that the moving border does not meet
- * either has the other iff it is off R. R extends beyond the sentinels' simplex iff it holds a simplex with a sentinel (then
- * it holds all of these), and the outside of d always does. */
+ * Component K of slice c and L of slice d: let every vertex of the triangulation of c move on a straight line to where it is in
+ * d, its power function interpolated likewise, so that each ball on the way lies in the union of the one that it comes from and
+ * the one that it goes to. A facet or full simplex is solid if at every time it lies in the union of its own balls. Let R be
+ * the union of the full simplices reached from those labelled K without crossing a solid facet or entering a solid simplex, S
+ * its border. K lies in R (location lemma). A point of K off d is never met by the moving border, so it has the same winding
+ * number (modulo 2) about S and about S', which is S arrived in d. S' lies in the balls of d, so all of L has one number, and
+ * where a point of L has another, K and L are apart. A point of L that the moving border does not meet either has the other iff
+ * it is off R. R extends beyond the sentinels' simplex iff it holds a simplex with a sentinel (then it holds all of these), and
+ * the outside of d always does. */
 #include "barrier.h"
 #include "box.h"
 #include "grid.h"
